@@ -1,0 +1,31 @@
+# How every target of the project is built: one library per room, one test program per room.
+
+add_library(scree_flags INTERFACE)
+target_compile_features(scree_flags INTERFACE cxx_std_20)
+target_include_directories(scree_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# -ffp-contract=off: the same rounding whatever the processor's fused operations.
+target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+                                             -ffp-contract=off)
+target_compile_definitions(scree_flags INTERFACE $<$<BOOL:${SCREE_CHECKS}>:SCREE_CHECKS>)
+if(SCREE_SANITIZE)
+  target_compile_options(scree_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(scree_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# scree_room(NAME SOURCES ... [LINKS ...] [PRIVATE_LINKS ...])
+function(scree_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(${name} STATIC ${ROOM_SOURCES})
+  target_link_libraries(${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS} scree_flags)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+endfunction()
+
+# scree_test(NAME SOURCES ... LINKS ...): a GoogleTest program whose cases CTest knows one by one.
+function(scree_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_LINKS} scree_flags GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${name} PRIVATE SCREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,70 @@
+// All blocks of a scene as one simplex mesh: triangles in 2-D, tetrahedra in 3-D.
+//
+// No node is shared between blocks, and the nodes and elements of a block are consecutive, so that a block is
+// a pair of ranges. Elements are positively oriented. 2-D has unit thickness.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/base/geometry.h"
+#include "engine/base/ids.h"
+
+namespace scree::mesh {
+
+// What a scene names: the source of one or many blocks.
+struct Body {
+  std::string name;
+  MaterialId material;
+  bool fixed = false;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at the start [m/s]
+};
+
+// One independent continuum.
+struct Block {
+  BodyId body;
+  IdRange<NodeId> nodes;
+  IdRange<ElementId> elements;
+};
+
+template <int dim>
+struct BlockMesh {
+  static constexpr int corners = dim + 1;
+  using Element = std::array<NodeId, corners>;
+
+  Table<NodeId, Point<dim>> nodes;  // [m]
+  Table<ElementId, Element> elements;
+  Table<BlockId, Block> blocks;
+  Table<BodyId, Body> bodies;
+};
+
+// A boundary face of a block: an edge in 2-D, a triangle in 3-D, ordered so that its normal points outwards.
+template <int dim>
+struct Face {
+  std::array<NodeId, dim> nodes;
+  ElementId element;  // the element that owns it
+  BlockId block;
+};
+
+// Every face that belongs to one element only, ordered by block, element and opposite corner.
+template <int dim>
+Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh);
+
+// Signed area (2-D, times unit thickness) or volume (3-D) of an element; positive for a well-oriented one.
+template <int dim>
+double element_volume(const BlockMesh<dim>& mesh, ElementId element);
+
+// Mean length of an element's edges: the characteristic length of eq. (11) [m].
+template <int dim>
+double element_mean_edge(const BlockMesh<dim>& mesh, ElementId element);
+
+// Mean length of all edges of all elements of the free blocks, or of all blocks if none is free [m].
+template <int dim>
+double mean_edge(const BlockMesh<dim>& mesh);
+
+// Block of each element.
+template <int dim>
+Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh);
+
+}  // namespace scree::mesh

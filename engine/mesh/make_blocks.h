@@ -1,0 +1,18 @@
+// Bodies to blocks: the one entry point of the mesher.
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh/block_mesh.h"
+#include "engine/mesh/body_spec.h"
+
+namespace scree::mesh {
+
+// Meshes every body and breaks it into blocks, in the order of `bodies`. The same specs give the same mesh, to the bit.
+// Throws InputError, naming the body, for a missing or unreadable mesh file, a surface that is not closed, a volume mesh with
+// an inverted or empty element, duplicate or loose nodes, a shape that does not exist in this dimension, or copies that do not
+// fit their region. A mesh file of several loose parts gives one block per part.
+template <int dim>
+BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies);
+
+}  // namespace scree::mesh

@@ -1,0 +1,33 @@
+// Drop and settle: rigid blocks fall under gravity and come to rest.
+#pragma once
+
+#include <functional>
+
+#include "engine/base/material.h"
+#include "engine/packing/packing.h"
+
+namespace scree::rigid {
+
+struct SettleOptions {
+  Eigen::Vector3d gravity{0, 0, -9.81};  // [m/s2]
+  double limit = 10;                     // longest simulated time [s]
+  double step = 1.0 / 240;               // [s]
+  double local_damping = 0;              // Cundall's local damping factor [-], in [0, 1)
+  double rest_speed = 1e-3;              // root mean square speed below which a pile may be at rest [m/s]
+  double rest_unbalanced_force = 0.05;   // largest accepted unbalanced force [-]
+  double rest_window = 0.25;             // both must hold for this long [s]
+  double frame_interval = 0.02;          // between frames given to the sink [s]
+};
+
+// Receives the poses as the pile falls: simulated time [s], one pose per block.
+using FrameSink = std::function<void(double time, const Table<BlockId, Pose>& poses)>;
+// Told now and then how far the stage is: simulated time [s], rms speed [m/s]. May throw to stop.
+using SettleProgress = std::function<void(double time, double rms_speed)>;
+
+// Lets the blocks of free bodies fall until they are at rest or `limit` is reached, which the report tells.
+// The same input gives the same poses, to the bit, on the same machine and binary.
+packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<MaterialId, Material>& materials,
+                           const SettleOptions& options, const FrameSink& frame = {},
+                           const SettleProgress& progress = {});
+
+}  // namespace scree::rigid

@@ -1,0 +1,73 @@
+// What a scene says about heat.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/base/geometry.h"
+#include "engine/base/ids.h"
+
+namespace scree::thermal {
+
+// Where on a body something holds: everywhere, or only inside an axis-aligned box of space.
+struct Region {
+  BodyId body;
+  std::optional<Aabb<3>> within;  // [m]; includes its faces; 2-D ignores z
+};
+
+struct FixedTemperature {
+  double temperature = 0;  // [K], at every node in the region, inner ones too
+};
+struct HeatFlux {
+  double flux = 0;  // [W/m2], into the body, on every boundary face whose corners are all in the region
+};
+struct HeatFlow {
+  double flow = 0;  // [W], total into the body, spread over those faces by area
+};
+
+struct Boundary {
+  Region region;
+  std::variant<FixedTemperature, HeatFlux, HeatFlow> condition;
+  std::string name;  // how the ledger calls it
+};
+
+struct Source {
+  Region region;
+  double power = 0;  // [W/m3], in every element whose centre is in the region
+  std::string name;
+};
+
+enum class JointForm {
+  consistent,  // both temperatures at the contact point: passes a linear field
+  literal,     // eq. (12) as printed: the owner's temperature at the vertex
+};
+
+struct JointOptions {
+  double stiffness_factor = 10;  // beta of eq. (11) [-]
+  JointForm form = JointForm::consistent;
+};
+
+enum class Integrator {
+  implicit,        // L-stable, second order, steps from the tolerance
+  explicit_euler,  // eq. (8)
+};
+
+struct TimeOptions {
+  double until = 0;         // [s]
+  double tolerance = 0.1;   // largest accepted time error [K]
+  double output_every = 0;  // [s]; states are exact at its multiples
+  Integrator integrator = Integrator::implicit;
+  std::optional<double> step;  // explicit only; nothing: the largest stable one
+};
+
+struct HeatOptions {
+  Table<BodyId, double> initial_temperature;  // [K]
+  std::vector<Boundary> boundaries;
+  std::vector<Source> sources;
+  JointOptions joint;
+  TimeOptions time;
+};
+
+}  // namespace scree::thermal

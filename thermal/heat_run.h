@@ -1,0 +1,70 @@
+// Temperatures in time.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+// Where the heat went, all since t = 0 [J]. Each flow is integrated with the weights of the time scheme, so `residual`
+// is rounding and solver error only.
+struct Ledger {
+  double start_jump = 0;             // to bring the fixed nodes to their temperature at t = 0
+  std::vector<double> by_boundary;   // through fixed nodes, in the order of HeatModel::boundary_names
+  std::vector<double> by_applied;    // in the order of HeatModel::applied_flows
+  double stored = 0;                 // sum of C (T - T_initial)
+  double turnover = 0;               // heat that flowed: integral of the sum of |flow| over boundaries and sources, and |start_jump|
+
+  [[nodiscard]] double residual() const;           // |stored - all that came in| [J]
+  [[nodiscard]] double relative_residual() const;  // of turnover; 0 if nothing flowed
+};
+
+// Everything a later process needs to go on as if it had never stopped.
+struct HeatState {
+  double time = 0;              // [s]
+  Eigen::VectorXd temperature;  // one per node [K]
+  Eigen::VectorXd error;        // estimate of the global time error, one per node [K]
+  double next_step = 0;         // what the step control would take [s]
+  Ledger ledger;
+  double time_error = 0;        // largest |error| that any node ever had [K]
+  std::int64_t steps = 0;
+  std::int64_t rejected_steps = 0;
+  std::int64_t factorisations = 0;
+  double least_step = 0;        // [s]
+  double largest_step = 0;      // [s]
+};
+
+class HeatRun {
+ public:
+  HeatRun(const HeatModel& model, const TimeOptions& options);  // from t = 0
+  HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state);
+  ~HeatRun();
+
+  // Advances to exactly `time`; `progress` is told the time after every step and may throw to stop.
+  void advance_to(double time, const std::function<void(double)>& progress = {});
+
+  [[nodiscard]] const HeatState& state() const;
+  [[nodiscard]] std::string solver() const;  // in words, for the summary
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 K, and the node that limits it.
+struct StableStep {
+  double step = 0;
+  NodeId node;
+};
+StableStep stable_step(const HeatModel& model);
+
+// Restart file (HDF5), whole or not there.
+void write(const HeatState& state, const std::string& key, const std::filesystem::path& file);
+HeatState read_state(const std::filesystem::path& file, const std::string& key);
+
+}  // namespace scree::thermal

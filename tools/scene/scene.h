@@ -1,0 +1,39 @@
+// A scene as the user wrote it, checked and in SI: what each stage gets its options from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/find_contacts.h"
+#include "engine/base/material.h"
+#include "engine/mesh/body_spec.h"
+#include "engine/output/probes.h"
+#include "engine/rigid/settle.h"
+#include "thermal/heat_options.h"
+
+namespace scree {
+
+struct SettleStage {
+  rigid::SettleOptions options;
+  bool accept_moving = false;  // a pile still moving at the limit is accepted: exit 0, and the summary says so
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  int dimension = 3;
+  Table<MaterialId, Material> materials;
+  std::vector<mesh::BodySpec> bodies;  // BodyId counts in this order
+  // At most one of the two: how the blocks come to their places. Neither: they stay where they were placed.
+  std::optional<SettleStage> settle;
+  std::optional<std::filesystem::path> packing;  // start from this packing file
+  // Both or neither.
+  std::optional<contact::ContactOptions> contact;
+  std::optional<thermal::HeatOptions> heat;
+  std::vector<output::ProbeSpec> probes;
+  std::string effective;  // the scene as YAML with every default filled in; reading it gives the same scene
+};
+
+}  // namespace scree
