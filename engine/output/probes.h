@@ -10,16 +10,17 @@
 
 #include "engine/base/check.h"
 #include "engine/mesh/block_mesh.h"
+#include "engine/output/probe_table.h"
 
 namespace scree::output {
 
 struct ProbeSpec {
   std::string name;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // [m]
-  // How far the probe may be moved to lie in a block [m]. A pile has voids, and which point of it is one differs from packing to
-  // packing; 0 makes a probe in a void an error.
+  // How far the probe may be moved to lie on the nearest block's surface [m]. A pile has voids, and which point of it is one
+  // differs from packing to packing; 0 makes a probe in a void an error.
   double reach = 0;
-  SourceLocation where;
+  SourceLocation where{};
 };
 
 // A probe that lies in a block.
@@ -33,23 +34,16 @@ struct Probe {
   double moved = 0;                       // [m]
 };
 
-// Throws InputError listing every probe in a void, with the nearest block, its body and distance.
+// The element that holds each probe, boundary included; of several (blocks that penetrate each other, a shared face) the one
+// with the lowest number. Throws InputError listing every probe in a void, with the nearest block, its body and distance.
 template <int dim>
 std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs);
 
 template <int dim>
 double value_at(const Probe<dim>& probe, const mesh::BlockMesh<dim>& mesh, const Eigen::VectorXd& nodal);
 
-// probes.csv: `time` in seconds, then a column per probe named after it; comment lines (#) above say in which block each lies
-// and where. Rows are flushed one by one; `keep_until` of a resumed run keeps the rows up to and including that time.
-class ProbeTable {
- public:
-  ProbeTable(std::filesystem::path file, std::vector<std::string> comments, std::vector<std::string> names);
-  ProbeTable(std::filesystem::path file, double keep_until);
-  void append(double time, const std::vector<double>& values);  // throws RunError
-
- private:
-  std::filesystem::path file_;
-};
+// "low: block 812 of sphere at [0, 0, 0.06] m" for each probe: the comments of its table.
+template <int dim>
+std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh);
 
 }  // namespace scree::output

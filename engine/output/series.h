@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,9 +22,9 @@ enum class CellType : std::uint8_t { vertex, line, triangle, tetrahedron };
 
 // Points and cells of one type. 2-D data has z = 0.
 struct Grid {
-  std::vector<Eigen::Vector3d> points;                // [m]
+  std::vector<Eigen::Vector3d> points;  // [m]
   CellType type = CellType::tetrahedron;
-  std::vector<std::int32_t> connectivity;             // corners of cell 0, of cell 1, ...
+  std::vector<std::int32_t> connectivity;  // corners of cell 0, of cell 1, ...
 };
 
 // Values at the points or cells of a grid; the name is what the user sees. Units go into the name's documentation, SI.
@@ -45,12 +45,13 @@ Grid make_grid(const mesh::BlockMesh<dim>& mesh);
 
 class Series {
  public:
-  // Starts `name`.pvd in `directory`, data in `directory`/`name`/. An older series of that name is removed; with
-  // `keep_until` its frames up to and including that time stay (a resumed run). Throws RunError if nothing can be written.
-  Series(std::filesystem::path directory, std::string name);
-  Series(std::filesystem::path directory, std::string name, double keep_until);
+  // A series `name`.pvd in `directory` with its data in `directory`/`name`/; the .pvd appears with the first frame. An older
+  // series of that name is removed; with `keep_until` its frames up to and including that time stay (a resumed run), and its
+  // damage, if it has any, is a RunError. Throws RunError if nothing can be written.
+  Series(std::filesystem::path directory, std::string name, std::optional<double> keep_until = std::nullopt);
 
-  // Appends a frame. Throws RunError (disk full) and leaves the series as it was before.
+  // Appends a frame, later than the one before. Throws RunError (disk full) and leaves the series as it was before.
+  // The same values give the same bytes.
   void write(const Grid& grid, const Frame& frame);
 
   [[nodiscard]] std::size_t frames() const { return entries_.size(); }

@@ -1,0 +1,66 @@
+#include "engine/output/probe_table.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+
+namespace scree::output {
+
+namespace {
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,
+                       const std::vector<std::string>& names)
+    : file_(std::move(file)) {
+  std::string text;
+  for (const std::string& comment : comments) text += fmt::format("# {}\n", comment);
+  text += "time";
+  for (const std::string& name : names) text += ',' + csv_field(name);
+  write_text(file_, text + '\n');
+}
+
+ProbeTable::ProbeTable(std::filesystem::path file, double keep_until) : file_(std::move(file)) {
+  std::ifstream old(file_, std::ios::binary);
+  if (!old) throw RunError(fmt::format("{}: no table to go on with ({})", file_.string(), std::strerror(errno)));
+  std::string text;
+  // A line that ends with the file instead of a newline was not finished; getline then reports the end of the file.
+  for (std::string line; std::getline(old, line) && !old.eof();) {
+    const bool row = !line.starts_with('#') && !line.starts_with("time");
+    if (row && !(std::strtod(line.c_str(), nullptr) <= keep_until)) break;
+    text += line + '\n';
+  }
+  old.close();
+  write_text(file_, text);
+}
+
+void ProbeTable::append(double time, const std::vector<double>& values) {
+  std::string row = fmt::format("{}", time);
+  for (const double value : values) row += fmt::format(",{}", value);
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file_, error);
+  errno = 0;
+  std::ofstream table(file_, std::ios::binary | std::ios::app);
+  table << row << '\n' << std::flush;
+  if (table && !error) return;
+  const std::string reason = error ? error.message() : std::strerror(errno);
+  table.close();
+  if (!error) std::filesystem::resize_file(file_, size, error);
+  throw RunError(fmt::format("{}: could not be written ({}). Free some space or choose another --out", file_.string(), reason));
+}
+
+}  // namespace scree::output

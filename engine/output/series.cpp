@@ -1,0 +1,209 @@
+#include "engine/output/series.h"
+
+#include <cstdlib>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLUtilities.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+
+namespace scree::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct VtkCell {
+  int type;
+  std::size_t corners;
+};
+
+VtkCell vtk_cell(CellType type) {
+  switch (type) {
+    case CellType::vertex:
+      return {VTK_VERTEX, 1};
+    case CellType::line:
+      return {VTK_LINE, 2};
+    case CellType::triangle:
+      return {VTK_TRIANGLE, 3};
+    case CellType::tetrahedron:
+      return {VTK_TETRA, 4};
+  }
+  std::abort();
+}
+
+// VTK looks at our values where they are; it only reads them, although its interface asks for a non-const pointer.
+template <class VtkArray, class T>
+vtkSmartPointer<VtkArray> view(const T* values, std::size_t count, int components) {
+  auto array = vtkSmartPointer<VtkArray>::New();
+  array->SetNumberOfComponents(components);
+  array->SetArray(const_cast<T*>(values), static_cast<vtkIdType>(count), /*save=*/1);
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> view(const Array& array) {
+  vtkSmartPointer<vtkDataArray> seen;
+  if (const auto* reals = std::get_if<std::vector<double>>(&array.values)) {
+    seen = view<vtkDoubleArray>(reals->data(), reals->size(), array.components);
+  } else {
+    const auto& integers = std::get<std::vector<std::int32_t>>(array.values);
+    seen = view<vtkTypeInt32Array>(integers.data(), integers.size(), array.components);
+  }
+  seen->SetName(array.name.c_str());
+  return seen;
+}
+
+void add_arrays(const std::vector<Array>& arrays, vtkIdType entries, vtkFieldData& data) {
+  for (const Array& array : arrays) {
+    const auto seen = view(array);
+    SCREE_EXPECT(seen->GetNumberOfTuples() == entries);
+    static_cast<void>(entries);
+    data.AddArray(seen);
+  }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Grid& grid, const Frame& frame) {
+  const VtkCell cell = vtk_cell(grid.type);
+  SCREE_EXPECT(grid.connectivity.size() % cell.corners == 0);
+  auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
+  points->SetData(view<vtkDoubleArray>(coordinates, 3 * grid.points.size(), 3));
+  data->SetPoints(points);
+
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkTypeInt32Array> offsets;
+  const std::size_t count = grid.connectivity.size() / cell.corners;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(count + 1));
+  for (std::size_t i = 0; i <= count; ++i) {
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cell.corners));
+  }
+  cells->SetData(offsets, view<vtkTypeInt32Array>(grid.connectivity.data(), grid.connectivity.size(), 1));
+  data->SetCells(cell.type, cells);
+
+  add_arrays(frame.points, data->GetNumberOfPoints(), *data->GetPointData());
+  add_arrays(frame.cells, data->GetNumberOfCells(), *data->GetCellData());
+  // ParaView shows this as the time of a .vtu opened on its own.
+  vtkNew<vtkDoubleArray> time;
+  time->SetName("TimeValue");
+  time->InsertNextValue(frame.time);
+  data->GetFieldData()->AddArray(time);
+  return data;
+}
+
+// The file's content. Writing to memory leaves the disk to write_text, which notices a full one even at the last byte; VTK's
+// own writer does not look at how closing the file went.
+std::string vtu_text(const Grid& grid, const Frame& frame, const fs::path& file) {
+  const auto data = to_vtk(grid, frame);
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToLZ4();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetByteOrderToLittleEndian();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError) {
+    throw RunError(fmt::format("{}: could not be written (VTK: {})", file.string(),
+                               vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
+  }
+  return writer->GetOutputString();
+}
+
+// The frames a .pvd names, as (time, file).
+std::vector<std::pair<double, std::string>> read_index(const fs::path& index) {
+  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(index.c_str()));
+  auto* collection = root == nullptr ? nullptr : root->FindNestedElementWithName("Collection");
+  if (collection == nullptr) throw RunError(fmt::format("{}: is no ParaView series. Run without resuming", index.string()));
+  std::vector<std::pair<double, std::string>> frames;
+  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+    auto* frame = collection->GetNestedElement(i);
+    const char* time = frame->GetAttribute("timestep");
+    const char* file = frame->GetAttribute("file");
+    if (time == nullptr || file == nullptr || !fs::is_regular_file(index.parent_path() / file)) {
+      throw RunError(fmt::format("{}: names a frame that is missing ({}). Run without resuming", index.string(),
+                                 file == nullptr ? "no name" : file));
+    }
+    frames.emplace_back(std::strtod(time, nullptr), file);
+  }
+  return frames;
+}
+
+// Removes all frames of a series but those in `kept`, and what an interrupted write left behind.
+void remove_frames(const fs::path& folder, const std::string& name, const std::set<fs::path>& kept) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    const bool frame = file.starts_with(name + "_") && entry.path().extension() == ".vtu";
+    if ((frame || file.starts_with(".part-" + name + "_")) && !kept.contains(entry.path())) fs::remove(entry.path());
+  }
+}
+
+}  // namespace
+
+Series::Series(fs::path directory, std::string name, std::optional<double> keep_until)
+    : directory_(std::move(directory)), name_(std::move(name)) {
+  const fs::path index = directory_ / (name_ + ".pvd");
+  try {
+    fs::create_directories(directory_ / name_);
+    fs::remove(directory_ / fmt::format(".part-{}.pvd", name_));
+    std::set<fs::path> kept;
+    if (keep_until && fs::exists(index)) {
+      for (auto& [time, file] : read_index(index)) {
+        if (time > *keep_until) continue;
+        kept.insert(directory_ / file);
+        entries_.push_back({time, std::move(file)});
+      }
+    }
+    // The index goes first, so that it never names a file that is gone.
+    if (entries_.empty()) fs::remove(index);
+    if (!entries_.empty()) write_index();
+    remove_frames(directory_ / name_, name_, kept);
+  } catch (const fs::filesystem_error& error) {
+    throw RunError(
+        fmt::format("{}: the series could not be started ({}). Choose another --out", index.string(), error.code().message()));
+  }
+}
+
+void Series::write(const Grid& grid, const Frame& frame) {
+  SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
+  Entry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
+  const fs::path file = directory_ / entry.file;
+  write_text(file, vtu_text(grid, frame, file));
+  entries_.push_back(std::move(entry));
+  try {
+    write_index();
+  } catch (...) {
+    entries_.pop_back();
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    throw;
+  }
+}
+
+void Series::write_index() const {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+  for (const Entry& entry : entries_) {
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, entry.file);
+  }
+  text += "  </Collection>\n</VTKFile>\n";
+  write_text(directory_ / (name_ + ".pvd"), text);
+}
+
+}  // namespace scree::output

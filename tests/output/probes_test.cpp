@@ -1,0 +1,147 @@
+#include "engine/output/probes.h"
+
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/output/support.h"
+
+namespace scree::output {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// A unit tetrahedron at the origin (block 0 of "rock") and one at x = 2 (block 1 of "stone").
+mesh::BlockMesh<3> two_tets() {
+  mesh::BlockMesh<3> mesh;
+  const BodyId rock = mesh.bodies.push_back({"rock", MaterialId{0}, false, {}});
+  const BodyId stone = mesh.bodies.push_back({"stone", MaterialId{0}, false, {}});
+  add_block<3>(mesh, rock, unit_tet());
+  add_block<3>(mesh, stone, unit_tet({2, 0, 0}));
+  return mesh;
+}
+
+// f(x) = 3 + x + 2 y - 5 z at the nodes.
+Eigen::VectorXd linear_field(const mesh::BlockMesh<3>& mesh) {
+  Eigen::VectorXd values(mesh.nodes.size());
+  for (const NodeId node : mesh.nodes.ids()) {
+    values[node.index()] = 3 + mesh.nodes[node].dot(Point<3>(1, 2, -5));
+  }
+  return values;
+}
+
+std::string message(const mesh::BlockMesh<3>& mesh, const ProbeSpec& spec) {
+  try {
+    locate_probes(mesh, {spec});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Probes, ALinearFieldIsReadExactlyInTheBlockThatHoldsTheProbe) {
+  const auto mesh = two_tets();
+  const auto probes = locate_probes(mesh, {{"a", {0.2, 0.3, 0.1}}, {"b", {2.1, 0.05, 0.6}}});
+  EXPECT_EQ(probes[0].block, BlockId{0});
+  EXPECT_EQ(probes[1].block, BlockId{1});
+  EXPECT_EQ(probes[1].moved, 0);
+  EXPECT_NEAR(value_at(probes[0], mesh, linear_field(mesh)), 3 + 0.2 + 0.6 - 0.5, 1e-14);
+  EXPECT_NEAR(value_at(probes[1], mesh, linear_field(mesh)), 3 + 2.1 + 0.1 - 3.0, 1e-14);
+}
+
+TEST(Probes, WorkInTwoDimensionsAndIgnoreZ) {
+  mesh::BlockMesh<2> mesh;
+  mesh.bodies.push_back({"bar", MaterialId{0}, false, {}});
+  add_block<2>(mesh, BodyId{0}, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)});
+  const auto probes = locate_probes(mesh, {{"p", {0.25, 0.5, 99}}});
+  EXPECT_NEAR(value_at(probes[0], mesh, Eigen::Vector3d(1, 2, 4)), 0.25 * 1 + 0.25 * 2 + 0.5 * 4, 1e-15);
+}
+
+TEST(Probes, TheBoundaryBelongsToTheBlock) {
+  const auto mesh = two_tets();
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.4, 0), Eigen::Vector3d(0.1, 0.2, 0.7),
+                                       Eigen::Vector3d(1.0 / 3, 1.0 / 3, 1.0 / 3)}) {
+    EXPECT_EQ(locate_probes(mesh, {{"p", point}})[0].block, BlockId{0}) << point.transpose();
+  }
+}
+
+TEST(Probes, OfTwoBlocksThatOverlapTheFirstCounts) {
+  auto mesh = two_tets();
+  add_block<3>(mesh, BodyId{0}, unit_tet());
+  EXPECT_EQ(locate_probes(mesh, {{"p", {0.2, 0.2, 0.2}}})[0].block, BlockId{0});
+}
+
+TEST(Probes, AVoidIsAnErrorThatNamesTheNearestBlockItsBodyAndTheWayOut) {
+  ProbeSpec spec{"high", {1.5, 0, 0}};
+  spec.point.x() = 1.75;
+  spec.where = {"pile.yaml", 20, 5};
+  EXPECT_EQ(message(two_tets(), spec),
+            "pile.yaml:20:5: output.probes.high is [1.75, 0, 0] (must lie in a block; the nearest, block 1 of stone, is 0.25 m "
+            "away). Move it, or let it move by itself with reach: 0.26 m");
+  spec.reach = 0.1;
+  EXPECT_THAT(message(two_tets(), spec), HasSubstr("is 0.25 m away and its reach is 0.1 m"));
+}
+
+TEST(Probes, EveryVoidIsReportedAtOnce) {
+  try {
+    locate_probes(two_tets(), {{"a", {9, 0, 0}}, {"b", {0.1, 0.1, 0.1}}, {"c", {0, 9, 0}}});
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2u);
+    EXPECT_EQ(error.problems()[1].key, "output.probes.c");
+  }
+}
+
+TEST(Probes, WithoutBlocksThereIsNoNearestOne) {
+  EXPECT_THAT(message({}, {"p", {0, 0, 0}}), HasSubstr("but there are none"));
+}
+
+TEST(Probes, TheSuggestedReachIsEnough) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 3);
+  const auto mesh = two_tets();
+  for (int i = 0; i < 200; ++i) {
+    ProbeSpec spec{"p", {coordinate(random), coordinate(random), coordinate(random)}};
+    const std::string text = message(mesh, spec);
+    if (text == "no error") continue;
+    spec.reach = std::stod(text.substr(text.find("reach: ") + 7));
+    EXPECT_EQ(message(mesh, spec), "no error");
+  }
+}
+
+TEST(Probes, AProbeWithinReachMovesToTheNearestPointOfTheBlocks) {
+  // Brute force: no point of a fine lattice of weights is nearer.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 3);
+  const auto mesh = two_tets();
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d point(coordinate(random), coordinate(random), coordinate(random));
+    const auto probe = locate_probes(mesh, {{"p", point, 10}})[0];
+    EXPECT_NEAR((probe.point - point).norm(), probe.moved, 1e-12);
+    double nearest = 1e9;
+    constexpr int n = 20;
+    for (const double x : {0.0, 2.0}) {
+      for (int a = 0; a <= n; ++a) {
+        for (int b = 0; a + b <= n; ++b) {
+          for (int c = 0; a + b + c <= n; ++c) {
+            nearest = std::min(nearest, (Eigen::Vector3d(x + a / double(n), b / double(n), c / double(n)) - point).norm());
+          }
+        }
+      }
+    }
+    EXPECT_LE(probe.moved, nearest + 1e-12);
+    EXPECT_GE(probe.moved, nearest - 1.0 / n);
+  }
+}
+
+TEST(Probes, TheDescriptionNamesBlockBodyAndPlace) {
+  const auto mesh = two_tets();
+  const auto probes = locate_probes(mesh, {{"low", {0.25, 0.25, 0.125}}, {"high", {2.25, 0.25, -0.5}, 1}});
+  EXPECT_THAT(describe(probes, mesh), ElementsAre("low: block 0 of rock at [0.25, 0.25, 0.125] m",
+                                                  "high: block 1 of stone at [2.25, 0.25, 0] m, moved by 0.5 m"));
+}
+
+}  // namespace
+}  // namespace scree::output
