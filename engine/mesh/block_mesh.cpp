@@ -1,7 +1,8 @@
 #include "engine/mesh/block_mesh.h"
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
+#include <vector>
 
 namespace scree::mesh {
 
@@ -18,21 +19,38 @@ std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element
   }
 }
 
+// A face of an element, by its nodes in ascending order, and its place among all faces of its block.
 template <int dim>
-void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, Table<FaceId, Face<dim>>& faces) {
-  std::map<std::array<NodeId, dim>, int> uses;
-  const auto key = [](std::array<NodeId, dim> nodes) {
+struct FaceUse {
+  std::array<NodeId, dim> key;
+  std::uint32_t place;
+
+  friend auto operator<=>(const FaceUse&, const FaceUse&) = default;
+};
+
+// Sorting a block's faces by their nodes puts the two uses of an inner face side by side; what stands alone is boundary.
+template <int dim>
+void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, std::vector<FaceUse<dim>>& uses,
+                     Table<FaceId, Face<dim>>& faces) {
+  const auto elements = mesh.blocks[block].elements;
+  uses.clear();
+  for (std::size_t place = 0; place < elements.size() * (dim + 1); ++place) {
+    auto nodes = opposite_face<dim>(mesh.elements[elements[place / (dim + 1)]], static_cast<int>(place % (dim + 1)));
     std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  };
-  for (const ElementId e : mesh.blocks[block].elements) {
-    for (int corner = 0; corner <= dim; ++corner) ++uses[key(opposite_face<dim>(mesh.elements[e], corner))];
+    uses.push_back({nodes, static_cast<std::uint32_t>(place)});
   }
-  for (const ElementId e : mesh.blocks[block].elements) {
-    for (int corner = 0; corner <= dim; ++corner) {
-      const auto nodes = opposite_face<dim>(mesh.elements[e], corner);
-      if (uses[key(nodes)] == 1) faces.push_back({nodes, e, block});
-    }
+  std::sort(uses.begin(), uses.end());
+  std::vector<std::uint32_t> boundary;
+  for (std::size_t i = 0; i < uses.size();) {
+    std::size_t next = i + 1;
+    while (next < uses.size() && uses[next].key == uses[i].key) ++next;
+    if (next == i + 1) boundary.push_back(uses[i].place);
+    i = next;
+  }
+  std::sort(boundary.begin(), boundary.end());
+  for (const std::uint32_t place : boundary) {
+    const ElementId element = elements[place / (dim + 1)];
+    faces.push_back({opposite_face<dim>(mesh.elements[element], static_cast<int>(place % (dim + 1))), element, block});
   }
 }
 
@@ -41,7 +59,8 @@ void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, Table<FaceId, Fa
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh) {
   Table<FaceId, Face<dim>> faces;
-  for (const BlockId block : mesh.blocks.ids()) add_block_faces(mesh, block, faces);
+  std::vector<FaceUse<dim>> uses;
+  for (const BlockId block : mesh.blocks.ids()) add_block_faces(mesh, block, uses, faces);
   return faces;
 }
 
@@ -85,11 +104,11 @@ Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh) {
   return owner;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                     \
-  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&);    \
-  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);           \
-  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);        \
-  template double mean_edge<dim>(const BlockMesh<dim>&);                           \
+#define SCREE_INSTANTIATE(dim)                                                  \
+  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&); \
+  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);        \
+  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);     \
+  template double mean_edge<dim>(const BlockMesh<dim>&);                        \
   template Table<ElementId, BlockId> element_blocks<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
