@@ -23,18 +23,18 @@ struct Stencil {
 template <int dim>
 struct Contact {
   Kind kind = Kind::point_face;
-  BlockId owner;        // of the semi-spring or semi-edge
-  BlockId target;       // always another block than the owner
+  BlockId owner;           // of the semi-spring or semi-edge
+  BlockId target;          // always another block than the owner
   Stencil<dim> on_owner;   // the contact point on the owner, by position
   Stencil<dim> on_target;  // the closest point on the target
   // Where the paper puts the owner's share of the flow: a semi-spring's vertex (12), a semi-edge's two vertices (13).
   Stencil<dim> literal_owner;
-  ElementId owner_element;    // gives the characteristic length of eq. (11)
+  ElementId owner_element;  // gives the characteristic length of eq. (11)
   ElementId target_element;
-  double area = 0;      // (9), (10) [m2] (2-D: times unit thickness)
-  double length = 0;    // characteristic length of the owner's element [m]
-  double gap = 0;       // signed distance from the target, negative inside it [m]
-  Point<dim> point;     // where it is [m]
+  double area = 0;    // (9), (10) [m2] (2-D: times unit thickness)
+  double length = 0;  // characteristic length of the owner's element [m]
+  double gap = 0;     // signed distance from the target, negative inside it [m]
+  Point<dim> point;   // where it is [m]
 };
 
 // Ordered by owner, owner's face, corner, and target, so that equal packings give equal sets.

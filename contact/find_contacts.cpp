@@ -1,0 +1,91 @@
+#include "contact/find_contacts.h"
+
+#include "contact/semi_edge.h"
+#include "contact/semi_spring.h"
+#include "contact/surface.h"
+#include "contact/target_search.h"
+#include "contact/touch.h"
+#include "engine/base/check.h"
+
+namespace scree::contact {
+
+namespace {
+
+// What both kinds of contact take from the owner's face.
+template <int dim>
+Contact<dim> owned_by(const Surface<dim>& surface, FaceId owner, FaceId target, const std::array<double, dim>& weights) {
+  const mesh::Face<dim>& face = surface.faces[owner];
+  Contact<dim> contact;
+  contact.owner = face.block;
+  contact.owner_element = face.element;
+  contact.target = surface.faces[target].block;
+  contact.target_element = surface.faces[target].element;
+  contact.length = surface.lengths[owner];
+  contact.on_owner = {face.nodes, weights};
+  contact.literal_owner.nodes = face.nodes;
+  contact.point = weighted_point<dim>(corners_of(surface, owner), weights);
+  return contact;
+}
+
+template <int dim>
+Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
+                           FaceId target) {
+  const auto touch = touch_face(surface, options, owner, corner, target);
+  Contact<dim> contact = owned_by<dim>(surface, owner, target, semi_spring_weights<dim>(corner, options.indentation));
+  contact.kind = Kind::point_face;
+  contact.literal_owner.weights[corner] = 1;
+  contact.on_target = {surface.faces[target].nodes, touch.value().on_target};
+  contact.area = semi_spring_area(surface, owner);
+  contact.gap = touch->gap;
+  return contact;
+}
+
+Contact<3> edge_contact(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side, EdgeId target) {
+  const auto touch = touch_edge(surface, options, owner, side, target);
+  const SurfaceEdge& edge = surface.edges[target];
+  const auto weights = semi_edge_weights(side, touch.value().along, options.indentation);
+  Contact<3> contact = owned_by<3>(surface, owner, edge.faces[0], weights);
+  contact.kind = Kind::edge_edge;
+  contact.literal_owner.weights[side] = 1 - touch->along;
+  contact.literal_owner.weights[(side + 1) % 3] = touch->along;
+  contact.on_target.nodes = surface.faces[edge.faces[0]].nodes;
+  for (int i = 0; i < 3; ++i) {
+    if (contact.on_target.nodes[i] == edge.nodes[0]) contact.on_target.weights[i] = 1 - touch->on_target;
+    if (contact.on_target.nodes[i] == edge.nodes[1]) contact.on_target.weights[i] = touch->on_target;
+  }
+  contact.area = semi_edge_area(surface, owner);
+  contact.gap = touch->gap;
+  return contact;
+}
+
+}  // namespace
+
+template <int dim>
+ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options) {
+  SCREE_EXPECT(options.indentation > 0 && options.indentation < 1);
+  SCREE_EXPECT(options.tolerance >= 0);
+  const Surface<dim> surface = make_surface(mesh);
+  const Targets<dim> targets = find_targets(surface, options);
+
+  ContactSet<dim> set;
+  set.semi_springs = targets.of_springs.size();
+  set.semi_edges = targets.of_edges.size();
+  for (const FaceId face : surface.faces.ids()) {
+    for (int corner = 0; corner < dim; ++corner) {
+      const FaceId target = targets.of_springs[face.index() * dim + corner];
+      if (target.valid()) set.contacts.push_back(point_contact(surface, options, face, corner, target));
+    }
+    if constexpr (dim == 3) {
+      for (int side = 0; side < 3; ++side) {
+        const EdgeId target = targets.of_edges[face.index() * 3 + side];
+        if (target.valid()) set.contacts.push_back(edge_contact(surface, options, face, side, target));
+      }
+    }
+  }
+  return set;
+}
+
+template ContactSet<2> find_contacts<2>(const mesh::BlockMesh<2>&, const ContactOptions&);
+template ContactSet<3> find_contacts<3>(const mesh::BlockMesh<3>&, const ContactOptions&);
+
+}  // namespace scree::contact

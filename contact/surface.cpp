@@ -1,0 +1,139 @@
+#include "contact/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace scree::contact {
+
+namespace {
+
+// Outward normal, as long as the face's area.
+template <int dim>
+Point<dim> area_vector(const Corners<dim>& corners) {
+  if constexpr (dim == 2) {
+    const Point<2> way = corners[1] - corners[0];
+    return {way.y(), -way.x()};
+  } else {
+    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  }
+}
+
+// Angle of the face at a corner; 1 in 2-D, where both edges at a node count alike.
+template <int dim>
+double angle_at(const Corners<dim>& corners, int corner) {
+  if constexpr (dim == 2) {
+    return 1;
+  } else {
+    const Point<3> a = corners[(corner + 1) % 3] - corners[corner];
+    const Point<3> b = corners[(corner + 2) % 3] - corners[corner];
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+}
+
+struct EdgeUse {
+  std::array<NodeId, 2> nodes;
+  FaceId face;
+  int side;
+
+  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+};
+
+// Joins the sorted uses of a block's edges in twos. Where four faces meet in one edge (a block that touches itself), this
+// gives two edges; where the boundary is open, an edge with the same face twice.
+void pair_uses(const std::vector<EdgeUse>& uses, Surface<3>& surface) {
+  for (std::size_t i = 0; i < uses.size();) {
+    const bool paired = i + 1 < uses.size() && uses[i].nodes == uses[i + 1].nodes;
+    const EdgeUse& second = uses[paired ? i + 1 : i];
+    const EdgeId edge = surface.edges.push_back({uses[i].nodes, {uses[i].face, second.face}});
+    surface.face_edges[uses[i].face][uses[i].side] = edge;
+    surface.face_edges[second.face][second.side] = edge;
+    i += paired ? 2 : 1;
+  }
+}
+
+// Block by block, since no node is shared between blocks: many small sorts are faster than a big one.
+void add_edges(Surface<3>& surface) {
+  surface.face_edges = Table<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
+  surface.edges.reserve(surface.faces.size() * 3 / 2);
+  std::vector<EdgeUse> uses;
+  for (std::size_t first = 0; first < surface.faces.size();) {
+    uses.clear();
+    std::size_t f = first;
+    const BlockId block = surface.faces[FaceId{first}].block;
+    for (; f < surface.faces.size() && surface.faces[FaceId{f}].block == block; ++f) {
+      const auto& nodes = surface.faces[FaceId{f}].nodes;
+      for (int side = 0; side < 3; ++side) {
+        const auto [low, high] = std::minmax(nodes[side], nodes[(side + 1) % 3]);
+        uses.push_back({{low, high}, FaceId{f}, side});
+      }
+    }
+    std::sort(uses.begin(), uses.end());
+    pair_uses(uses, surface);
+    first = f;
+  }
+}
+
+}  // namespace
+
+template <int dim>
+Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
+  Surface<dim> surface{mesh, mesh::boundary_faces(mesh), {}, {}, {}, {}, {}, {}};
+  const std::size_t count = surface.faces.size();
+  surface.normals.reserve(count);
+  surface.areas.reserve(count);
+  surface.lengths.reserve(count);
+  surface.node_normals = Table<NodeId, Point<dim>>(mesh.nodes.size(), Point<dim>::Zero());
+  for (const FaceId f : surface.faces.ids()) {
+    const Corners<dim> corners = corners_of(surface, f);
+    const Point<dim> area = area_vector<dim>(corners);
+    surface.areas.push_back(area.norm());
+    surface.normals.push_back(area.normalized());
+    surface.lengths.push_back(mesh::element_mean_edge(mesh, surface.faces[f].element));
+    for (int i = 0; i < dim; ++i) {
+      surface.node_normals[surface.faces[f].nodes[i]] += angle_at<dim>(corners, i) * surface.normals[f];
+    }
+  }
+  if constexpr (dim == 3) add_edges(surface);
+  return surface;
+}
+
+template <int dim>
+Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::array<double, dim>& weights) {
+  const auto zero = [](double weight) { return weight == 0; };
+  const auto zeros = std::count_if(weights.begin(), weights.end(), zero);
+  if (zeros == 0) return surface.normals[face];
+  if (zeros == dim - 1) {
+    const auto corner = std::find_if_not(weights.begin(), weights.end(), zero) - weights.begin();
+    return surface.node_normals[surface.faces[face].nodes[corner]];
+  }
+  const auto opposite = std::find_if(weights.begin(), weights.end(), zero) - weights.begin();
+  const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(opposite + 1) % 3]];
+  return surface.normals[edge.faces[0]] + surface.normals[edge.faces[1]];
+}
+
+template <int dim>
+bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& point) {
+  const mesh::BlockMesh<dim>& mesh = surface.mesh;
+  const auto inside = [&](ElementId element) {
+    const auto& nodes = mesh.elements[element];
+    Eigen::Matrix<double, dim, dim> edges;
+    for (int i = 0; i < dim; ++i) edges.col(i) = mesh.nodes[nodes[i + 1]] - mesh.nodes[nodes[0]];
+    const Point<dim> weights = edges.inverse() * (point - mesh.nodes[nodes[0]]);
+    return weights.minCoeff() >= 0 && weights.sum() <= 1;
+  };
+  if (inside(surface.faces[face].element)) return true;
+  const auto elements = mesh.blocks[surface.faces[face].block].elements;
+  return elements.size() > 1 && std::any_of(elements.begin(), elements.end(), inside);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                       \
+  template Surface<dim> make_surface<dim>(const mesh::BlockMesh<dim>&);                              \
+  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, const std::array<double, dim>&); \
+  template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
+
+}  // namespace scree::contact

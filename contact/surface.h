@@ -1,0 +1,53 @@
+// The boundary of all blocks, with what the search asks of it again and again.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "contact/face_point.h"
+#include "engine/mesh/block_mesh.h"
+
+namespace scree::contact {
+
+using EdgeId = Id<struct EdgeTag>;
+
+// An edge of a block's boundary in 3-D and the two faces that meet in it.
+struct SurfaceEdge {
+  std::array<NodeId, 2> nodes;  // ascending
+  std::array<FaceId, 2> faces;  // ascending
+};
+
+template <int dim>
+struct Surface {
+  const mesh::BlockMesh<dim>& mesh;  // of the caller, who keeps it
+  Table<FaceId, mesh::Face<dim>> faces;
+  Table<FaceId, Point<dim>> normals;       // unit, outwards
+  Table<FaceId, double> areas;             // [m2] (2-D: length times unit thickness)
+  Table<FaceId, double> lengths;           // characteristic length of the face's element, eq. (11) [m]
+  Table<NodeId, Point<dim>> node_normals;  // mean of the faces around, weighted by their angle there; any length
+  // 3-D only. Edge i of a face joins its corners i and i + 1.
+  Table<EdgeId, SurfaceEdge> edges;
+  Table<FaceId, std::array<EdgeId, 3>> face_edges;
+};
+
+template <int dim>
+Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh);
+
+template <int dim>
+Corners<dim> corners_of(const Surface<dim>& surface, FaceId face) {
+  Corners<dim> corners;
+  for (int i = 0; i < dim; ++i) corners[i] = surface.mesh.nodes[surface.faces[face].nodes[i]];
+  return corners;
+}
+
+// A direction that points out of the block at a point of its face given by weights: the face's normal inside it, on an edge
+// the mean of both faces', at a node the angle-weighted mean. With these the sign of (p - closest point) . outwards says
+// whether p is outside, on edges and corners too (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005).
+template <int dim>
+Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::array<double, dim>& weights);
+
+// Is the point in the block whose face this is? Asks the element behind the face first, which is nearly always the one.
+template <int dim>
+bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& point);
+
+}  // namespace scree::contact

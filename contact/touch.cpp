@@ -1,0 +1,104 @@
+#include "contact/touch.h"
+
+#include <cmath>
+
+#include "contact/segment.h"
+#include "contact/semi_edge.h"
+#include "contact/semi_spring.h"
+
+namespace scree::contact {
+
+namespace {
+
+// Below this fraction of the characteristic length a difference of two points is rounding and has no direction.
+constexpr double no_direction = 1e-9;
+
+// How far, as a sine, a face may rise above its edge and the edge still count as standing out: packings are flat to that.
+constexpr double flat_sine = 0.0175;  // 1 degree
+
+// Sine by which the face on one side of an edge rises above it in a direction perpendicular to the edge.
+double rise(const Surface<3>& surface, FaceId face, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
+  const Point<3>& start = surface.mesh.nodes[edge.nodes[0]];
+  const Eigen::Vector3d along = surface.mesh.nodes[edge.nodes[1]] - start;
+  Eigen::Vector3d inwards = surface.normals[face].cross(along).normalized();
+  const Corners<3> corners = corners_of(surface, face);
+  if ((corners[0] + corners[1] + corners[2] - 3 * start).dot(inwards) < 0) inwards = -inwards;
+  return inwards.dot(direction);
+}
+
+bool stands_out(const Surface<3>& surface, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
+  return rise(surface, edge.faces[0], edge, direction) <= flat_sine &&
+         rise(surface, edge.faces[1], edge, direction) <= flat_sine;
+}
+
+}  // namespace
+
+template <int dim>
+std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
+                                          FaceId target) {
+  const double length = surface.lengths[owner];
+  const double tolerance = options.tolerance * length;
+  const Corners<dim> own = corners_of(surface, owner);
+  const Corners<dim> other = corners_of(surface, target);
+  const Point<dim> point = weighted_point<dim>(own, semi_spring_weights<dim>(corner, options.indentation));
+
+  // The planes' distance is a lower bound and dismisses most.
+  const Point<dim>& target_normal = surface.normals[target];
+  const double height = target_normal.dot(point - other[0]);
+  const double vertex_height = target_normal.dot(own[corner] - other[0]);
+  if (std::abs(height) > tolerance && std::abs(vertex_height) > tolerance) return std::nullopt;
+
+  PointTouch<dim> touch;
+  touch.on_target = closest_weights<dim>(other, point);
+  const Point<dim> offset = point - weighted_point<dim>(other, touch.on_target);
+  const double distance = offset.norm();
+  Point<dim> direction = target_normal;  // of the gap, away from the target
+  if (distance > no_direction * length) {
+    const double side = outwards_at<dim>(surface, target, touch.on_target).dot(offset) < 0 ? -1.0 : 1.0;
+    touch.gap = side * distance;
+    direction = offset / touch.gap;
+  } else {
+    touch.gap = height;
+  }
+  if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
+  // Behind this face need not be inside: it may be beyond the far side of a thin block.
+  if (touch.gap < 0 && distance > no_direction * length && !inside_block<dim>(surface, target, point)) return std::nullopt;
+  touch.facing = direction.dot(target_normal);
+
+  if (distance > tolerance) {
+    const Point<dim> nearest = weighted_point<dim>(other, closest_weights<dim>(other, own[corner]));
+    if ((own[corner] - nearest).norm() > tolerance) return std::nullopt;
+  }
+  return touch;
+}
+
+std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
+                                    EdgeId target) {
+  const double tolerance = options.tolerance * surface.lengths[owner];
+  const SurfaceEdge& other = surface.edges[target];
+  const Corners<3> own = corners_of(surface, owner);
+  const Point<3> start = weighted_point<3>(own, semi_edge_weights(side, 0, options.indentation));
+  const Point<3> end = weighted_point<3>(own, semi_edge_weights(side, 1, options.indentation));
+  const auto crossing = line_crossing(start, end, surface.mesh.nodes[other.nodes[0]], surface.mesh.nodes[other.nodes[1]]);
+  if (!crossing || crossing->along_a < 0 || crossing->along_a > 1 || crossing->along_b < 0 || crossing->along_b > 1) {
+    return std::nullopt;
+  }
+
+  Eigen::Vector3d direction = crossing->normal;  // of the gap, away from the target
+  if (direction.dot(surface.normals[other.faces[0]] + surface.normals[other.faces[1]]) < 0) direction = -direction;
+  if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
+
+  // The edge itself is parallel to its semi-edge, so one normal measures both gaps.
+  const double gap = direction.dot(start - surface.mesh.nodes[other.nodes[0]]);
+  const double true_gap = direction.dot(own[side] - surface.mesh.nodes[other.nodes[0]]);
+  if (std::abs(gap) > tolerance && std::abs(true_gap) > tolerance) return std::nullopt;
+
+  const SurfaceEdge& own_edge = surface.edges[surface.face_edges[owner][side]];
+  if (!stands_out(surface, other, direction) || !stands_out(surface, own_edge, -direction)) return std::nullopt;
+  return EdgeTouch{gap, crossing->along_a, crossing->along_b};
+}
+
+template std::optional<PointTouch<2>> touch_face<2>(const Surface<2>&, const ContactOptions&, FaceId, int, FaceId);
+template std::optional<PointTouch<3>> touch_face<3>(const Surface<3>&, const ContactOptions&, FaceId, int, FaceId);
+
+}  // namespace scree::contact

@@ -1,0 +1,40 @@
+// Fine search: does a semi-spring touch a target face, a semi-edge a target edge, and where.
+#pragma once
+
+#include <optional>
+
+#include "contact/find_contacts.h"
+#include "contact/surface.h"
+
+namespace scree::contact {
+
+// A face feels only what it looks at: the direction from which it is touched may lean at most 80 degrees from its normal.
+// It must be more than 0 so that the joints which end on a free surface do not heat it from the side, by rounding or by a
+// slight tilt; at 80 degrees a block that stands on a corner still touches with all the faces around it.
+inline constexpr double least_facing = 0.17364817766693033;  // cos(80 degrees)
+
+template <int dim>
+struct PointTouch {
+  double gap = 0;                     // of the semi-spring, negative inside the target [m]
+  double facing = 0;                  // cosine between the target's normal and the direction of the gap, for ties
+  std::array<double, dim> on_target;  // weights
+};
+
+// Touching means: the semi-spring, or the vertex it stands for, is within tolerance of the target, and the owner's face looks
+// at it.
+template <int dim>
+std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
+                                          FaceId target);
+
+struct EdgeTouch {
+  double gap = 0;        // of the semi-edge, negative inside the target [m]
+  double along = 0;      // fraction of the way on the semi-edge
+  double on_target = 0;  // fraction of the way on the target edge
+};
+
+// Touching means: the semi-edge crosses the target edge between the ends of both, the strip between the semi-edge and the edge
+// it stands for is within tolerance of it, and along the gap both edges stand out from their blocks.
+std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
+                                    EdgeId target);
+
+}  // namespace scree::contact

@@ -1,0 +1,169 @@
+#include "contact/find_contacts.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/contact/builders.h"
+
+namespace scree::contact {
+namespace {
+
+using namespace testing;
+
+// A cube of edge 1 and another beside it in x, moved by a gap and along the common face.
+mesh::BlockMesh<3> two_cubes(double gap, double along) {
+  return mesh_of<3>({box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(1 + gap, along, 0), at(1, 1, 1))});
+}
+
+template <int dim>
+double area_of(const ContactSet<dim>& set, Kind kind, std::size_t owner) {
+  double sum = 0;
+  for (const auto& contact : set.contacts) {
+    if (contact.kind == kind && contact.owner == BlockId{owner}) sum += contact.area;
+  }
+  return sum;
+}
+
+TEST(FindContacts, OfTwoCubesFaceToFaceCarryTheWholeFaceFromBothSides) {
+  const auto set = find_contacts<3>(two_cubes(0, 0), {});
+  EXPECT_EQ(set.count(Kind::point_face), 12);  // two triangles a side, three semi-springs each
+  EXPECT_EQ(set.count(Kind::edge_edge), 0);
+  EXPECT_NEAR(area_of(set, Kind::point_face, 0), 1, 1e-14);
+  EXPECT_NEAR(area_of(set, Kind::point_face, 1), 1, 1e-14);
+  for (const auto& contact : set.contacts) EXPECT_NEAR(contact.gap, 0, 1e-15);
+}
+
+TEST(FindContacts, OfCubesThatAreOffsetLoseTheSemiSpringsBeyondTheRim) {
+  // By half the face: each triangle keeps the corners that are over the other cube.
+  const auto set = find_contacts<3>(two_cubes(0, 0.5), {});
+  EXPECT_GT(set.count(Kind::point_face), 0);
+  EXPECT_LT(set.count(Kind::point_face), 12);
+  EXPECT_EQ(set.count(Kind::edge_edge), 0) << "semi-springs have found this contact, semi-edges would count it again";
+  for (const auto& contact : set.contacts) {
+    EXPECT_GE(contact.point.y(), 0.5);
+    EXPECT_LE(contact.point.y(), 1.0);
+  }
+}
+
+TEST(FindContacts, EndWhereTheGapExceedsTheTolerance) {
+  const double length = mesh::element_mean_edge(two_cubes(0, 0), ElementId{0});
+  const ContactOptions options{0.05, 0.01};
+  const auto within = find_contacts<3>(two_cubes(0.0099 * length, 0), options);
+  EXPECT_EQ(within.count(Kind::point_face), 12);
+  for (const auto& contact : within.contacts) EXPECT_NEAR(contact.gap, 0.0099 * length, 1e-14);
+  EXPECT_TRUE(find_contacts<3>(two_cubes(0.0101 * length, 0), options).contacts.empty());
+}
+
+TEST(FindContacts, HaveANegativeGapWhereBlocksOverlap) {
+  const auto set = find_contacts<3>(two_cubes(-0.005, 0), {});
+  EXPECT_EQ(set.count(Kind::point_face), 12);
+  for (const auto& contact : set.contacts) EXPECT_NEAR(contact.gap, -0.005, 1e-14);
+}
+
+TEST(FindContacts, DoNotSeeAThinBlockFromItsFarSide) {
+  // A sheet of less than the tolerance lies between two blocks: its faces and theirs look at each other only where they
+  // meet.
+  const double sheet = 0.004;
+  const auto mesh = mesh_of<3>(
+      {box<3>(at(0, 0, -1), at(1, 1, 1)), box<3>(at(0, 0, 0), at(1, 1, sheet)), box<3>(at(0, 0, sheet), at(1, 1, 1))});
+  const auto set = find_contacts<3>(mesh, {});
+  for (const auto& contact : set.contacts) {
+    EXPECT_GE(contact.gap, -1e-12) << "nothing overlaps here";
+  }
+  EXPECT_NEAR(area_of(set, Kind::point_face, 1), 2, 1e-12);
+}
+
+// A regular tetrahedron of edge 1 that stands on its corner at (0, 0, height).
+Simplex<3> on_its_corner(double height) {
+  const double up = std::sqrt(2.0 / 3), radius = 1 / std::sqrt(3.0);
+  return {at(0, 0, height), at(radius, 0, height + up), at(-radius / 2, 0.5, height + up), at(-radius / 2, -0.5, height + up)};
+}
+
+TEST(FindContacts, OfAVertexOnAFaceAreTheThreeSemiSpringsAroundIt) {
+  const auto floor = box<3>(at(-2, -2.1, -1), at(4.3, 4.4, 1));
+  const auto mesh = mesh_of<3>({floor, {on_its_corner(0)}});
+  const auto set = find_contacts<3>(mesh, {});
+  ASSERT_EQ(set.contacts.size(), 3);
+  for (const auto& contact : set.contacts) {
+    EXPECT_EQ(contact.owner, BlockId{1});
+    EXPECT_EQ(contact.target, BlockId{0});
+    // 5 % of two thirds of the face's height, which leans by the tetrahedron's own.
+    EXPECT_NEAR(contact.gap, 0.05 * 2.0 / 3 * std::sqrt(2.0 / 3), 1e-14);
+    EXPECT_NEAR(contact.area, std::sqrt(3.0) / 12, 1e-14);
+    EXPECT_EQ(std::count(contact.literal_owner.weights.begin(), contact.literal_owner.weights.end(), 1.0), 1);
+    EXPECT_NEAR(value(mesh, contact.literal_owner).norm(), 0, 1e-14) << "the corner it stands on";
+    EXPECT_NEAR(value(mesh, contact.on_target).z(), 0, 1e-14);
+  }
+  EXPECT_TRUE(find_contacts<3>(mesh_of<3>({floor, {on_its_corner(0.011)}}), {}).contacts.empty());
+}
+
+// Two tetrahedra whose edges cross at right angles in the plane z = 0, one above and one below.
+mesh::BlockMesh<3> crossed_edges(double gap) {
+  const Simplex<3> below{at(-0.5, 0, 0), at(0.5, 0, 0), at(0, -0.5, -0.7), at(0, 0.5, -0.7)};
+  const Simplex<3> above{at(0.1, -0.5, gap), at(0.1, 0.5, gap), at(-0.5, 0, 0.7 + gap), at(0.5, 0, 0.7 + gap)};
+  return mesh_of<3>({{below}, {above}});
+}
+
+TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {
+  const auto mesh = crossed_edges(0.002);
+  const auto set = find_contacts<3>(mesh, {});
+  ASSERT_EQ(set.contacts.size(), 4);
+  for (const auto& contact : set.contacts) {
+    EXPECT_EQ(contact.kind, Kind::edge_edge);
+    EXPECT_NE(contact.owner, contact.target);
+    EXPECT_NEAR((value(mesh, contact.on_owner) - contact.point).norm(), 0, 1e-14);
+    EXPECT_NEAR(std::abs((contact.point - value(mesh, contact.on_target)).z()), contact.gap, 1e-14);
+    EXPECT_EQ(std::count(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1);
+    EXPECT_NEAR(std::accumulate(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1, 1e-15);
+    EXPECT_EQ(std::count(contact.literal_owner.weights.begin(), contact.literal_owner.weights.end(), 0.0), 1);
+    EXPECT_NEAR(value(mesh, contact.literal_owner).head<2>().norm(), 0.1, 0.01) << "beside the crossing, on the edge itself";
+  }
+  EXPECT_TRUE(find_contacts<3>(crossed_edges(0.011), {}).contacts.empty());
+}
+
+TEST(FindContacts, OfABeamAcrossABeamAreSemiEdges) {
+  // No corner of either lies on the other: semi-springs alone would lose this contact.
+  const auto mesh = mesh_of<3>({box<3>(at(-2, -0.3, -1), at(4, 0.6, 1)), box<3>(at(-0.31, -2, 0), at(0.6, 4, 1))});
+  const auto set = find_contacts<3>(mesh, {});
+  EXPECT_EQ(set.count(Kind::point_face), 0);
+  EXPECT_GT(set.count(Kind::edge_edge), 0);
+  for (const auto& contact : set.contacts) EXPECT_NEAR(contact.point.z(), 0, 1e-14);
+}
+
+TEST(FindContacts, NeverJoinABlockToItself) {
+  std::mt19937 random(3);
+  const auto mesh = each_its_own<3>(random_simplices<3>(60, 1.0, 0.5, random));
+  for (const auto& contact : find_contacts<3>(mesh, {0.05, 0.2}).contacts) EXPECT_NE(contact.owner, contact.target);
+  EXPECT_TRUE(find_contacts<3>(mesh_of<3>({box<3>(at(0, 0, 0), at(1, 1, 0.001))}), {0.05, 0.1}).contacts.empty());
+}
+
+TEST(FindContacts, OfTheRingOf960TrianglesAreAllButTheRims) {
+  const auto mesh = each_its_own<2>(ring());
+  const auto set = find_contacts<2>(mesh, {});
+  EXPECT_EQ(set.semi_springs, 5760);
+  EXPECT_EQ(set.contacts.size(), 5760 - 2 * 60 * 2);
+  for (const auto& contact : set.contacts) EXPECT_NEAR(contact.gap, 0, 1e-12);
+}
+
+TEST(FindContacts, OfACubeOfLooseTetrahedraAreAllInnerFacesAndNoSemiEdges) {
+  BlockOf<3> tetrahedra;
+  for (int i = 0; i < 27; ++i) {
+    const auto cell = box<3>(at(i % 3, i / 3 % 3, i / 9), at(1, 1, 1));
+    tetrahedra.insert(tetrahedra.end(), cell.begin(), cell.end());
+  }
+  const auto set = find_contacts<3>(each_its_own<3>(tetrahedra), {});
+  EXPECT_EQ(set.semi_springs, 27 * 6 * 12);
+  EXPECT_EQ(set.count(Kind::point_face), 27 * 6 * 12 - 6 * 9 * 2 * 3);
+  EXPECT_EQ(set.count(Kind::edge_edge), 0);
+}
+
+TEST(FindContacts, ComeInTheOrderOfOwners) {
+  const auto set = find_contacts<2>(each_its_own<2>(ring()), {});
+  EXPECT_TRUE(
+      std::is_sorted(set.contacts.begin(), set.contacts.end(), [](const auto& a, const auto& b) { return a.owner < b.owner; }));
+}
+
+}  // namespace
+}  // namespace scree::contact
