@@ -13,10 +13,15 @@ struct SettleOptions {
   double limit = 10;                     // longest simulated time [s]
   double step = 1.0 / 240;               // [s]
   double local_damping = 0;              // Cundall's local damping factor [-], in [0, 1)
-  double rest_speed = 1e-3;              // root mean square speed below which a pile may be at rest [m/s]
-  double rest_unbalanced_force = 0.05;   // largest accepted unbalanced force [-]
-  double rest_window = 0.25;             // both must hold for this long [s]
-  double frame_interval = 0.02;          // between frames given to the sink [s]
+  // Drag, per mass [1/s]: a block falls no faster than gravity over this. It is taken away once the pile is at rest under it,
+  // and the pile must then be at rest without it. At most 1 / step.
+  double viscous_damping = 0;
+  double rest_speed = 1e-3;             // root mean square speed below which a pile may be at rest [m/s]
+  double rest_unbalanced_force = 0.05;  // largest accepted unbalanced force [-]
+  double rest_displacement = 0.01;      // largest accepted way of any block in a window, over the mean edge [-]
+  double rest_window = 0.25;            // all three must hold for this long [s]
+  int iterations = 20;                  // of the contact solver in each step
+  double frame_interval = 0.02;         // between frames given to the sink [s]
 };
 
 // Receives the poses as the pile falls: simulated time [s], one pose per block.
@@ -27,7 +32,6 @@ using SettleProgress = std::function<void(double time, double rms_speed)>;
 // Lets the blocks of free bodies fall until they are at rest or `limit` is reached, which the report tells.
 // The same input gives the same poses, to the bit, on the same machine and binary.
 packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<MaterialId, Material>& materials,
-                           const SettleOptions& options, const FrameSink& frame = {},
-                           const SettleProgress& progress = {});
+                           const SettleOptions& options, const FrameSink& frame = {}, const SettleProgress& progress = {});
 
 }  // namespace scree::rigid

@@ -1,0 +1,208 @@
+#include "engine/mesh/convex_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace scree::mesh {
+
+namespace {
+
+constexpr double allowed_dent = 1e-3;  // of the length of the edges beside it
+constexpr double one_plane = 1e-6;     // largest angle between triangles of one face [rad]
+
+struct Surface {
+  std::vector<Eigen::Vector3d> points;                  // [m]
+  std::vector<std::array<std::int32_t, 3>> triangles;   // counter-clockwise seen from outside
+  std::vector<Eigen::Vector3d> normals;                 // unit
+  std::vector<std::array<std::int32_t, 3>> neighbours;  // across the edge from corner i to corner i + 1
+};
+
+using DirectedEdge = std::pair<std::int32_t, std::int32_t>;
+
+// Nothing if an edge belongs to more or fewer than two triangles.
+bool connect(Surface& surface) {
+  std::map<DirectedEdge, std::int32_t> owner;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& corner = surface.triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      if (!owner.emplace(DirectedEdge{corner[i], corner[(i + 1) % 3]}, static_cast<std::int32_t>(t)).second) return false;
+    }
+  }
+  for (const auto& corner : surface.triangles) {
+    auto& beside = surface.neighbours.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const auto twin = owner.find({corner[(i + 1) % 3], corner[i]});
+      if (twin == owner.end()) return false;
+      beside[i] = twin->second;
+    }
+  }
+  return true;
+}
+
+std::optional<Surface> boundary_surface(const BlockMesh<3>& mesh, BlockId block) {
+  std::map<std::array<NodeId, 3>, int> uses;
+  static constexpr int opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  const auto sorted = [](std::array<NodeId, 3> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  std::vector<std::array<NodeId, 3>> all;
+  for (const ElementId e : mesh.blocks[block].elements) {
+    for (const auto& face : opposite) {
+      const auto& node = mesh.elements[e];
+      all.push_back({node[face[0]], node[face[1]], node[face[2]]});
+      ++uses[sorted(all.back())];
+    }
+  }
+  Surface surface;
+  std::map<NodeId, std::int32_t> number;
+  for (const auto& face : all) {
+    if (uses[sorted(face)] != 1) continue;
+    auto& corners = surface.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const auto [at, fresh] = number.emplace(face[i], static_cast<std::int32_t>(surface.points.size()));
+      if (fresh) surface.points.push_back(mesh.nodes[face[i]]);
+      corners[i] = at->second;
+    }
+    const auto& p = surface.points;
+    surface.normals.push_back((p[corners[1]] - p[corners[0]]).cross(p[corners[2]] - p[corners[0]]).normalized());
+  }
+  if (!connect(surface)) return std::nullopt;
+  return surface;
+}
+
+// Height of the neighbour's far corner above a triangle, over the longest edge of the neighbour.
+bool is_dented(const Surface& surface, std::size_t triangle, int side) {
+  const auto& far = surface.triangles[surface.neighbours[triangle][side]];
+  const Eigen::Vector3d& from = surface.points[surface.triangles[triangle][0]];
+  double longest = 0;
+  double height = 0;
+  for (int i = 0; i < 3; ++i) {
+    longest = std::max(longest, (surface.points[far[i]] - surface.points[far[(i + 1) % 3]]).norm());
+    height = std::max(height, surface.normals[triangle].dot(surface.points[far[i]] - from));
+  }
+  return height > allowed_dent * longest;
+}
+
+// Triangles reached from `seed` over neighbours for which `same(neighbour)` holds get the number `label`.
+template <class Same>
+void flood(const Surface& surface, std::int32_t seed, std::int32_t label, std::vector<std::int32_t>& labels, Same same) {
+  std::vector<std::int32_t> open{seed};
+  labels[seed] = label;
+  while (!open.empty()) {
+    const std::int32_t t = open.back();
+    open.pop_back();
+    for (const std::int32_t n : surface.neighbours[t]) {
+      if (labels[n] < 0 && same(n)) {
+        labels[n] = label;
+        open.push_back(n);
+      }
+    }
+  }
+}
+
+bool is_convex(const Surface& surface) {
+  std::vector<std::int32_t> part(surface.triangles.size(), -1);
+  flood(surface, 0, 0, part, [](std::int32_t) { return true; });
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (part[t] < 0) return false;
+    for (int side = 0; side < 3; ++side) {
+      if (is_dented(surface, t, side)) return false;
+    }
+  }
+  return true;
+}
+
+// The edges that bound each group of coplanar triangles, from corner to next corner.
+std::vector<std::map<std::int32_t, std::int32_t>> outlines(const Surface& surface, const std::vector<std::int32_t>& group,
+                                                           std::int32_t groups) {
+  std::vector<std::map<std::int32_t, std::int32_t>> next(groups);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (group[surface.neighbours[t][i]] == group[t]) continue;
+      next[group[t]][surface.triangles[t][i]] = surface.triangles[t][(i + 1) % 3];
+    }
+  }
+  return next;
+}
+
+void add_edges(ConvexPiece& piece) {
+  std::map<DirectedEdge, std::int32_t> owner;
+  for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+    const auto& corners = piece.faces[f].corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      owner[{corners[i], corners[(i + 1) % corners.size()]}] = static_cast<std::int32_t>(f);
+    }
+  }
+  for (const auto& [edge, face] : owner) {
+    const auto twin = owner.find({edge.second, edge.first});
+    if (edge.first < edge.second && twin != owner.end())
+      piece.edges.push_back({{edge.first, edge.second}, {face, twin->second}});
+  }
+}
+
+// Keeps the points at which three or more merged faces meet: the others lie inside a face or on a straight edge.
+ConvexPiece merged(const Surface& surface) {
+  std::vector<std::int32_t> group(surface.triangles.size(), -1);
+  std::vector<Eigen::Vector3d> normals;
+  for (std::size_t t = 0; t < group.size(); ++t) {
+    if (group[t] >= 0) continue;
+    const Eigen::Vector3d normal = surface.normals[t];
+    flood(surface, static_cast<std::int32_t>(t), static_cast<std::int32_t>(normals.size()), group, [&](std::int32_t n) {
+      return normal.cross(surface.normals[n]).norm() < one_plane && normal.dot(surface.normals[n]) > 0;
+    });
+    normals.push_back(normal);
+  }
+  std::vector<std::set<std::int32_t>> faces_at(surface.points.size());
+  for (std::size_t t = 0; t < group.size(); ++t) {
+    for (const std::int32_t corner : surface.triangles[t]) faces_at[corner].insert(group[t]);
+  }
+  ConvexPiece piece;
+  std::vector<std::int32_t> number(surface.points.size(), -1);
+  for (std::size_t p = 0; p < surface.points.size(); ++p) {
+    if (faces_at[p].size() < 3) continue;
+    number[p] = static_cast<std::int32_t>(piece.vertices.size());
+    piece.vertices.push_back(surface.points[p]);
+  }
+  for (const auto& next : outlines(surface, group, static_cast<std::int32_t>(normals.size()))) {
+    auto& face = piece.faces.emplace_back(ConvexPiece::Face{normals[piece.faces.size()], {}});
+    const std::int32_t start = next.begin()->first;
+    std::int32_t at = start;
+    do {
+      if (number[at] >= 0) face.corners.push_back(number[at]);
+      at = next.at(at);
+    } while (at != start);
+  }
+  add_edges(piece);
+  return piece;
+}
+
+ConvexPiece tetrahedron(const BlockMesh<3>& mesh, ElementId element) {
+  static constexpr std::int32_t corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  ConvexPiece piece;
+  for (const NodeId node : mesh.elements[element]) piece.vertices.push_back(mesh.nodes[node]);
+  for (const auto& c : corners) {
+    const auto& p = piece.vertices;
+    piece.faces.push_back({(p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).normalized(), {c[0], c[1], c[2]}});
+  }
+  add_edges(piece);
+  return piece;
+}
+
+}  // namespace
+
+std::vector<ConvexPiece> convex_pieces(const BlockMesh<3>& mesh, BlockId block) {
+  const auto& elements = mesh.blocks[block].elements;
+  if (elements.size() > 1) {
+    const std::optional<Surface> surface = boundary_surface(mesh, block);
+    if (surface && is_convex(*surface)) return {merged(*surface)};
+  }
+  std::vector<ConvexPiece> pieces;
+  for (const ElementId e : elements) pieces.push_back(tetrahedron(mesh, e));
+  return pieces;
+}
+
+}  // namespace scree::mesh

@@ -1,0 +1,260 @@
+#include "engine/rigid/polyhedron_collision.h"
+
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/rigid/contact_points.h"
+#include "engine/rigid/polyhedron_shape.h"
+
+namespace scree::rigid {
+
+namespace {
+
+using packing::PlacedPiece;
+
+void place(const PolyhedronShape& shape, const btTransform& pose, PlacedPiece& placed) {
+  const btMatrix3x3& r = pose.getBasis();
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(r[i]).transpose();
+  const Eigen::Vector3d origin = from_bullet(pose.getOrigin());
+  placed.piece = &shape.piece();
+  placed.vertices.clear();
+  placed.normals.clear();
+  for (const auto& vertex : shape.piece().vertices) placed.vertices.push_back(rotation * vertex + origin);
+  for (const auto& face : shape.piece().faces) placed.normals.push_back(rotation * face.normal);
+}
+
+// No point of `object` moves faster than this [m/s].
+double fastest_point(const btCollisionObject& object, double radius) {
+  const btRigidBody* body = btRigidBody::upcast(&object);
+  return body->getLinearVelocity().length() + radius * body->getAngularVelocity().length();
+}
+
+double difference(const btMatrix3x3& a, const btMatrix3x3& b) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += (a[i] - b[i]).length2();
+  return std::sqrt(sum);
+}
+
+class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
+ public:
+  PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
+                      const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second)
+      : btActivatingCollisionAlgorithm(info, first, second), ranges_(ranges) {}
+  ~PolyhedronCollision() override { drop_manifold(); }
+
+  void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) override {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    if (manifold_ != nullptr) manifolds.push_back(manifold_);
+  }
+
+ private:
+  struct Pair {
+    const btCollisionObjectWrapper* first;
+    const btCollisionObjectWrapper* second;
+    double reach;      // how near a point must be to become a contact in this step [m]
+    double time_step;  // [s]
+  };
+
+  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative) const;
+  void evaluate(const Pair& pair);
+  void write_points(const Pair& pair, const ContactPoints& contact);
+  [[nodiscard]] double bounce_distance(const Pair& pair, const ContactPoint& at) const;
+  void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
+  void move_points(const Pair& pair);
+  void drop_manifold();
+
+  const ContactRanges& ranges_;
+  btPersistentManifold* manifold_ = nullptr;
+  btTransform relative_;         // pose of the second in the first's frame when evaluated
+  double evaluated_reach_ = -1;  // negative: never evaluated
+  packing::Separation separation_;
+  btVector3 normal_;            // from the second to the first, in the first's frame
+  btVector3 tangent_{0, 0, 0};  // first friction direction, in the first's frame
+};
+
+void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
+                                           const btDispatcherInfo& info, btManifoldResult* result) {
+  const auto& a = static_cast<const PolyhedronShape&>(*first->getCollisionShape());
+  const auto& b = static_cast<const PolyhedronShape&>(*second->getCollisionShape());
+  const double approach =
+      fastest_point(*first->getCollisionObject(), a.radius()) + fastest_point(*second->getCollisionObject(), b.radius());
+  const Pair pair{first, second, ranges_.near + approach * info.m_timeStep, info.m_timeStep};
+  const btTransform relative = first->getWorldTransform().inverseTimes(second->getWorldTransform());
+  if (still_valid(pair, relative)) {
+    if (manifold_ != nullptr) move_points(pair);
+  } else {
+    relative_ = relative;
+    evaluate(pair);
+  }
+  if (manifold_ != nullptr) result->setPersistentManifold(manifold_);
+}
+
+bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) const {
+  if (evaluated_reach_ < 0) return false;
+  const auto& b = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape());
+  const double moved = (relative.getOrigin() - relative_.getOrigin()).length() +
+                       b.radius() * difference(relative.getBasis(), relative_.getBasis());
+  if (separation_.distance - moved > pair.reach) return true;
+  return moved < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
+}
+
+void PolyhedronCollision::evaluate(const Pair& pair) {
+  static thread_local PlacedPiece a;
+  static thread_local PlacedPiece b;
+  place(static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()), pair.first->getWorldTransform(), a);
+  place(static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape()), pair.second->getWorldTransform(), b);
+  const double enough = pair.reach + ranges_.near;
+  if (evaluated_reach_ >= 0) separation_.distance = packing::separation_along(a, b, separation_);
+  if (evaluated_reach_ < 0 || separation_.distance <= enough)
+    separation_ = packing::separation(a, b, enough, ranges_.face_bias);
+  evaluated_reach_ = pair.reach;
+  ContactPoints contact;
+  if (separation_.distance <= pair.reach) contact = contact_points(a, b, separation_, pair.reach);
+  if (contact.count == 0) {
+    drop_manifold();
+  } else {
+    write_points(pair, contact);
+  }
+}
+
+void PolyhedronCollision::write_points(const Pair& pair, const ContactPoints& contact) {
+  const auto* first = pair.first->getCollisionObject();
+  const auto* second = pair.second->getCollisionObject();
+  if (manifold_ == nullptr) manifold_ = m_dispatcher->getNewManifold(first, second);
+  std::array<btManifoldPoint, 4> old;
+  const int old_count = manifold_->getNumContacts();
+  for (int i = 0; i < old_count; ++i) old[i] = manifold_->getContactPoint(i);
+
+  normal_ = pair.first->getWorldTransform().getBasis().transpose() * -to_bullet(separation_.normal);
+  // The friction direction turns as little as the normal lets it, so that the impulses of the last step still fit.
+  tangent_ -= normal_ * normal_.dot(tangent_);
+  if (tangent_.length2() < 0.25) {
+    btVector3 unused;
+    btPlaneSpace1(normal_, tangent_, unused);
+  }
+  tangent_.normalize();
+  manifold_->setNumContacts(contact.count);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& at = contact.points[i];
+    btManifoldPoint& point = manifold_->getContactPoint(i);
+    point = btManifoldPoint(first->getWorldTransform().invXform(to_bullet(at.on_first)),
+                            second->getWorldTransform().invXform(to_bullet(at.on_second)), btVector3(0, 0, 0), at.distance);
+    point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+    point.m_distance1 = bounce_distance(pair, at);
+    point.m_combinedFriction = std::min(first->getFriction(), second->getFriction());
+    point.m_combinedRestitution = std::min(first->getRestitution(), second->getRestitution());
+  }
+  inherit_impulses(old, old_count, 0.05 * static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius());
+  move_points(pair);
+}
+
+// Bullet lets a pair close its gap within the step and takes that from the rebound. A point that is going to bounce in this
+// step is therefore said to touch already, so that it leaves with exactly the speed its restitution asks for.
+double PolyhedronCollision::bounce_distance(const Pair& pair, const ContactPoint& at) const {
+  const btCollisionObject* first = pair.first->getCollisionObject();
+  const btCollisionObject* second = pair.second->getCollisionObject();
+  if (at.distance <= 0 || std::min(first->getRestitution(), second->getRestitution()) <= 0) return at.distance;
+  const auto velocity = [](const btCollisionObject* object, const Eigen::Vector3d& point) {
+    return from_bullet(
+        btRigidBody::upcast(object)->getVelocityInLocalPoint(to_bullet(point) - object->getWorldTransform().getOrigin()));
+  };
+  const double approach = separation_.normal.dot(velocity(first, at.on_first) - velocity(second, at.on_second));
+  return approach > ranges_.bounce_speed && at.distance < approach * pair.time_step ? 0.0 : at.distance;
+}
+
+// Each new point takes the impulses of the nearest old one that no nearer point took.
+void PolyhedronCollision::inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near) {
+  std::array<bool, 4> taken{};
+  std::array<bool, 4> served{};
+  for (int round = 0; round < old_count; ++round) {
+    double nearest = near * near;
+    int from = -1;
+    int to = -1;
+    for (int i = 0; i < manifold_->getNumContacts(); ++i) {
+      for (int j = 0; j < old_count; ++j) {
+        if (served[i] || taken[j]) continue;
+        const double distance = (manifold_->getContactPoint(i).m_localPointA - old[j].m_localPointA).length2();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        to = i;
+        from = j;
+      }
+    }
+    if (from < 0) return;
+    served[to] = taken[from] = true;
+    btManifoldPoint& point = manifold_->getContactPoint(to);
+    point.m_appliedImpulse = old[from].m_appliedImpulse;
+    point.m_appliedImpulseLateral1 = old[from].m_appliedImpulseLateral1;
+    point.m_appliedImpulseLateral2 = old[from].m_appliedImpulseLateral2;
+  }
+}
+
+// The points move with the pair.
+void PolyhedronCollision::move_points(const Pair& pair) {
+  const btTransform& first = pair.first->getCollisionObject()->getWorldTransform();
+  const btTransform& second = pair.second->getCollisionObject()->getWorldTransform();
+  const btVector3 normal = pair.first->getWorldTransform().getBasis() * normal_;
+  const btVector3 tangent = pair.first->getWorldTransform().getBasis() * tangent_;
+  for (int i = 0; i < manifold_->getNumContacts(); ++i) {
+    btManifoldPoint& point = manifold_->getContactPoint(i);
+    point.m_positionWorldOnA = first(point.m_localPointA);
+    point.m_positionWorldOnB = second(point.m_localPointB);
+    point.m_normalWorldOnB = normal;
+    point.m_lateralFrictionDir1 = tangent;
+    point.m_lateralFrictionDir2 = normal.cross(tangent);
+  }
+}
+
+void PolyhedronCollision::drop_manifold() {
+  if (manifold_ != nullptr) m_dispatcher->releaseManifold(manifold_);
+  manifold_ = nullptr;
+}
+
+class CreatePolyhedronCollision final : public btCollisionAlgorithmCreateFunc {
+ public:
+  explicit CreatePolyhedronCollision(const ContactRanges& ranges) : ranges_(ranges) {}
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                 const btCollisionObjectWrapper* first,
+                                                 const btCollisionObjectWrapper* second) override {
+    void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(PolyhedronCollision));
+    return new (memory) PolyhedronCollision(info, ranges_, first, second);
+  }
+
+ private:
+  ContactRanges ranges_;
+};
+
+btDefaultCollisionConstructionInfo pools(int blocks) {
+  btDefaultCollisionConstructionInfo info;
+  // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
+  info.m_customCollisionAlgorithmMaxElementSize = sizeof(PolyhedronCollision);
+  info.m_defaultMaxCollisionAlgorithmPoolSize = std::max(4096, 16 * blocks);
+  info.m_defaultMaxPersistentManifoldPoolSize = std::max(4096, 4 * blocks);
+  return info;
+}
+
+}  // namespace
+
+CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, int blocks)
+    : btDefaultCollisionConfiguration(pools(blocks)), create_(std::make_unique<CreatePolyhedronCollision>(ranges)) {}
+
+CollisionConfiguration::~CollisionConfiguration() = default;
+
+btCollisionAlgorithmCreateFunc* CollisionConfiguration::getCollisionAlgorithmCreateFunc(int first_type, int second_type) {
+  if (first_type == CUSTOM_CONVEX_SHAPE_TYPE && second_type == CUSTOM_CONVEX_SHAPE_TYPE) return create_.get();
+  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(first_type, second_type);
+}
+
+}  // namespace scree::rigid

@@ -1,0 +1,32 @@
+// Our narrow phase in Bullet's collision configuration: separating axes and face clipping on the true geometry, no margin.
+#pragma once
+
+#include <memory>
+
+#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+
+#include "engine/packing/separation.h"
+
+namespace scree::rigid {
+
+// Lengths of the contact search; the world derives them from the size of the blocks.
+struct ContactRanges {
+  double near = 0;          // points nearer than this, plus what the pair may approach in a step, become contacts [m]
+  double face_bias = 0;     // see packing::separation [m]
+  double still = 0;         // a pair that moved less than this since its points were computed keeps them [m]
+  double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
+};
+
+// Creates the algorithm for two polyhedra and leaves other shapes (compounds) to Bullet.
+class CollisionConfiguration final : public btDefaultCollisionConfiguration {
+ public:
+  CollisionConfiguration(const ContactRanges& ranges, int blocks);
+  ~CollisionConfiguration() override;
+  btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int first_type, int second_type) override;
+
+ private:
+  std::unique_ptr<btCollisionAlgorithmCreateFunc> create_;
+};
+
+}  // namespace scree::rigid

@@ -1,0 +1,38 @@
+#include "engine/rigid/polyhedron_shape.h"
+
+#include <algorithm>
+
+namespace scree::rigid {
+
+PolyhedronShape::PolyhedronShape(mesh::ConvexPiece piece) : piece_(std::move(piece)) {
+  m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+  setMargin(0);
+  for (const auto& vertex : piece_.vertices) radius_ = std::max(radius_, vertex.norm());
+}
+
+void PolyhedronShape::getAabb(const btTransform& pose, btVector3& low, btVector3& high) const {
+  low = high = pose(to_bullet(piece_.vertices.front()));
+  for (const auto& vertex : piece_.vertices) {
+    const btVector3 at = pose(to_bullet(vertex));
+    low.setMin(at);
+    high.setMax(at);
+  }
+}
+
+btVector3 PolyhedronShape::localGetSupportingVertexWithoutMargin(const btVector3& direction) const {
+  const Eigen::Vector3d along = from_bullet(direction);
+  return to_bullet(*std::max_element(piece_.vertices.begin(), piece_.vertices.end(),
+                                     [&](const auto& a, const auto& b) { return a.dot(along) < b.dot(along); }));
+}
+
+void PolyhedronShape::batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* vertices,
+                                                                        int count) const {
+  for (int i = 0; i < count; ++i) vertices[i] = localGetSupportingVertexWithoutMargin(directions[i]);
+}
+
+void PolyhedronShape::calculateLocalInertia(btScalar mass, btVector3& inertia) const {
+  inertia.setValue(1, 1, 1);
+  inertia *= mass * radius_ * radius_;
+}
+
+}  // namespace scree::rigid

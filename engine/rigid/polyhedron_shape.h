@@ -1,0 +1,38 @@
+// A convex piece as Bullet's broad phase sees it: a custom convex shape without margin.
+#pragma once
+
+#include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
+
+#include "engine/mesh/convex_pieces.h"
+
+namespace scree::rigid {
+
+inline btVector3 to_bullet(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline Eigen::Vector3d from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+class PolyhedronShape final : public btConvexInternalShape {
+ public:
+  explicit PolyhedronShape(mesh::ConvexPiece piece);
+
+  [[nodiscard]] const mesh::ConvexPiece& piece() const { return piece_; }
+  // Of the smallest sphere about the origin that holds the piece [m].
+  [[nodiscard]] double radius() const { return radius_; }
+
+  void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override;
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override;
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* vertices,
+                                                         int count) const override;
+  // Never asked: inertia comes from the tetrahedra (mass_properties.h).
+  void calculateLocalInertia(btScalar mass, btVector3& inertia) const override;
+  [[nodiscard]] const char* getName() const override { return "Polyhedron"; }
+
+ private:
+  mesh::ConvexPiece piece_;
+  double radius_ = 0;
+};
+
+}  // namespace scree::rigid

@@ -1,0 +1,92 @@
+#include "engine/rigid/rest.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/rigid/polyhedron_shape.h"
+
+namespace scree::rigid {
+
+namespace {
+
+double kinetic_energy(const btRigidBody& body, double mass) {
+  const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
+  const btVector3 inverse = body.getInvInertiaDiagLocal();
+  double energy = mass * body.getLinearVelocity().length2() / 2;
+  for (int i = 0; i < 3; ++i) energy += spin[i] * spin[i] / inverse[i] / 2;
+  return energy;
+}
+
+Pose pose_of(const btRigidBody& body) {
+  const btQuaternion q = body.getOrientation();
+  return {from_bullet(body.getCenterOfMassPosition()), Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z())};
+}
+
+}  // namespace
+
+Motion observe_motion(const World& world, const Damping& damping, double time_step) {
+  Motion motion;
+  double energy = 0;
+  double total = 0;
+  for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
+    const btRigidBody& body = *world.free_bodies()[i];
+    const BlockId block = world.free_blocks()[i];
+    energy += kinetic_energy(body, world.mass(block));
+    total += world.mass(block);
+    motion.max_speed = std::max(motion.max_speed,
+                                body.getLinearVelocity().length() + world.radius(block) * body.getAngularVelocity().length());
+  }
+  if (total > 0) motion.rms_speed = std::sqrt(2 * energy / total);
+  const double contact = world.mean_contact_force(time_step);
+  const double net = damping.mean_net_force(world);
+  // Without any contact nothing bears the blocks: all of the force is unbalanced.
+  motion.unbalanced = contact > 0 ? net / contact : (net > 0 ? 1.0 : 0.0);
+  return motion;
+}
+
+RestWatch::RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time)
+    : rest_speed_(options.rest_speed),
+      rest_unbalanced_(options.rest_unbalanced_force),
+      allowed_displacement_(options.rest_displacement * mean_edge),
+      rest_window_(options.rest_window) {
+  begin(world, time);
+}
+
+void RestWatch::begin(const World& world, double time) {
+  since_ = time;
+  quiet_ = true;
+  blocks_ = world.free_blocks();
+  poses_.clear();
+  for (const btRigidBody* body : world.free_bodies()) poses_.push_back(pose_of(*body));
+}
+
+bool RestWatch::observe(const World& world, const Motion& motion, double time) {
+  quiet_ = quiet_ && motion.rms_speed < rest_speed_ && motion.unbalanced < rest_unbalanced_;
+  // Half a millionth of a window: times are sums of steps.
+  if (time - since_ < rest_window_ * (1 - 5e-7)) return false;
+  const bool same_blocks = blocks_ == world.free_blocks();
+  window_ = time - since_;
+  displacement_ = 0;
+  for (std::size_t i = 0; same_blocks && i < blocks_.size(); ++i) {
+    const Pose now = pose_of(*world.free_bodies()[i]);
+    const double turned = 2 * (now.rotation * poses_[i].rotation.conjugate()).vec().norm();
+    displacement_ =
+        std::max(displacement_, (now.translation - poses_[i].translation).norm() + turned * world.radius(blocks_[i]));
+  }
+  const bool rest = quiet_ && same_blocks && displacement_ < allowed_displacement_;
+  begin(world, time);
+  return rest;
+}
+
+std::string RestWatch::criterion() const {
+  return fmt::format(
+      "in every step of a window of {:g} s the root mean square speed is below {:g} m/s and the unbalanced force (mean net "
+      "force on "
+      "a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m in it",
+      rest_window_, rest_speed_, rest_unbalanced_, allowed_displacement_);
+}
+
+}  // namespace scree::rigid

@@ -1,0 +1,45 @@
+// Is the pile at rest?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/rigid/damping.h"
+
+namespace scree::rigid {
+
+// What one step tells about the state of motion.
+struct Motion {
+  double rms_speed = 0;   // sqrt(2 kinetic energy / mass), rotation included [m/s]
+  double max_speed = 0;   // of any point of a block [m/s]
+  double unbalanced = 0;  // mean net force on a block over mean force of a touching pair [-]
+};
+
+Motion observe_motion(const World& world, const Damping& damping, double time_step);
+
+// Looks at consecutive windows of time: a window is one of rest if the speed and the unbalanced force stayed below their limits
+// in every step of it and no block has moved further than allowed from its beginning to its end.
+class RestWatch {
+ public:
+  RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time);
+
+  // True if a window of rest has just ended.
+  bool observe(const World& world, const Motion& motion, double time);
+
+  [[nodiscard]] double window() const { return window_; }              // length of the last whole one [s]
+  [[nodiscard]] double displacement() const { return displacement_; }  // largest way of a block in it [m]
+  [[nodiscard]] std::string criterion() const;
+
+ private:
+  void begin(const World& world, double time);
+
+  double rest_speed_, rest_unbalanced_, allowed_displacement_, rest_window_;
+  double since_ = 0;
+  bool quiet_ = true;
+  std::vector<Pose> poses_;  // of the free bodies at the beginning of the window
+  std::vector<BlockId> blocks_;
+  double window_ = 0;
+  double displacement_ = 0;
+};
+
+}  // namespace scree::rigid

@@ -1,0 +1,160 @@
+#include "engine/rigid/settle.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/base/check.h"
+#include "engine/packing/penetration.h"
+#include "engine/rigid/damping.h"
+#include "engine/rigid/fall.h"
+#include "engine/rigid/polyhedron_shape.h"
+#include "engine/rigid/rest.h"
+#include "engine/rigid/scene_bounds.h"
+#include "engine/rigid/world.h"
+
+namespace scree::rigid {
+
+namespace {
+
+// Pairs nearer than this part of the mean edge count as touching when the mean penetration is taken.
+constexpr double touching_range = 1e-3;
+
+void require(bool good, const char* key, double value, const char* rule) {
+  if (good) return;
+  Problem problem;
+  problem.key = std::string("settle.") + key;
+  problem.value = fmt::format("{:g}", value);
+  problem.rule = rule;
+  throw InputError(problem);
+}
+
+void check(const SettleOptions& options) {
+  require(options.step > 0, "step", options.step, "positive, s");
+  require(options.limit >= 0, "limit", options.limit, "not negative, s");
+  require(options.frame_interval > 0, "frame_interval", options.frame_interval, "positive, s");
+  require(options.rest_window > 0, "rest_window", options.rest_window, "positive, s");
+  require(options.iterations > 0, "iterations", options.iterations, "positive");
+  require(options.local_damping >= 0 && options.local_damping < 1, "local_damping", options.local_damping, "in [0, 1)");
+  require(options.viscous_damping >= 0 && options.viscous_damping * options.step <= 1, "viscous_damping",
+          options.viscous_damping, "from 0 to 1 / step, 1/s");
+}
+
+// Passes on the poses at t = 0, once per interval, and at the end.
+class Frames {
+ public:
+  Frames(const FrameSink& sink, double interval) : sink_(sink), interval_(interval) {}
+  void offer(const World& world, double time) {
+    if (!sink_ || time < next_ * (1 - 1e-9)) return;
+    sink_(time, world.poses());
+    last_ = time;
+    while (next_ <= time * (1 + 1e-9)) next_ += interval_;
+  }
+  void finish(const World& world, double time) {
+    if (sink_ && last_ < time) sink_(time, world.poses());
+  }
+
+ private:
+  const FrameSink& sink_;
+  double interval_;
+  double next_ = 0;
+  double last_ = -1;
+};
+
+std::vector<BlockId> take_lost(World& world, const SceneBounds& bounds) {
+  std::vector<BlockId> lost;
+  for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
+    const BlockId block = world.free_blocks()[i];
+    const Eigen::Vector3d centre = from_bullet(world.free_bodies()[i]->getCenterOfMassPosition());
+    if (bounds.lost(centre, world.radius(block))) lost.push_back(block);
+  }
+  for (const BlockId block : lost) world.remove(block);
+  return lost;
+}
+
+class Settling {
+ public:
+  Settling(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        world_(mesh, materials, options),
+        damping_(world_, options.gravity),
+        bounds_(mesh, options.gravity) {}
+
+  packing::SettleReport run(const FrameSink& frame, const SettleProgress& progress);
+  [[nodiscard]] Table<BlockId, Pose> poses() const { return world_.poses(); }
+
+ private:
+  [[nodiscard]] double time() const { return static_cast<double>(steps_) * options_.step; }
+  Motion advance(double viscous);
+
+  const mesh::BlockMesh<3>& mesh_;
+  const SettleOptions& options_;
+  World world_;
+  Damping damping_;
+  SceneBounds bounds_;
+  std::int64_t steps_ = 0;
+  std::vector<BlockId> lost_;
+};
+
+Motion Settling::advance(double viscous) {
+  damping_.slow_down(world_, options_.local_damping, viscous, options_.step);
+  world_.step(options_.step, options_.iterations);
+  damping_.observe(world_, options_.step);
+  ++steps_;
+  for (const BlockId block : take_lost(world_, bounds_)) lost_.push_back(block);
+  return observe_motion(world_, damping_, options_.step);
+}
+
+packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress& progress) {
+  Frames frames(frame, options_.frame_interval);
+  frames.offer(world_, 0);
+  steps_ = skip_free_fall(world_, mesh_, options_,
+                          [&](std::int64_t step) { frames.offer(world_, static_cast<double>(step) * options_.step); });
+  packing::SettleReport report;
+  report.mean_edge = mesh::mean_edge(mesh_);
+  RestWatch watch(world_, options_, report.mean_edge, time());
+  double viscous = options_.viscous_damping;
+  Motion motion;
+  while (!report.at_rest && time() + options_.step <= options_.limit * (1 + 1e-9)) {
+    motion = advance(viscous);
+    if (progress) progress(time(), motion.rms_speed);
+    frames.offer(world_, time());
+    if (!watch.observe(world_, motion, time())) continue;
+    report.at_rest = viscous == 0;
+    viscous = 0;
+  }
+  frames.finish(world_, time());
+  report.criterion = watch.criterion();
+  report.simulated_time = time();
+  report.rms_speed = motion.rms_speed;
+  report.max_speed = motion.max_speed;
+  report.unbalanced_force = motion.unbalanced;
+  report.max_displacement = watch.displacement();
+  report.window = watch.window();
+  std::sort(lost_.begin(), lost_.end());
+  report.lost_blocks = lost_;
+  return report;
+}
+
+}  // namespace
+
+packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<MaterialId, Material>& materials,
+                           const SettleOptions& options, const FrameSink& frame, const SettleProgress& progress) {
+  check(options);
+  packing::Packing<3> packing = packing::unmoved(blocks);
+  Settling settling(blocks, materials, options);
+  packing::SettleReport report = settling.run(frame, progress);
+  packing.poses = settling.poses();
+  const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
+  const packing::Penetration penetration = packing::measure_penetration(placed, touching_range * report.mean_edge);
+  report.max_penetration = penetration.max;
+  report.mean_penetration = penetration.mean;
+  report.top = pile_top(placed, options.gravity, report.lost_blocks);
+  packing.settled = std::move(report);
+  return packing;
+}
+
+}  // namespace scree::rigid

@@ -1,0 +1,220 @@
+#include "engine/rigid/world.h"
+
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+#include "engine/rigid/mass_properties.h"
+#include "engine/rigid/polyhedron_collision.h"
+#include "engine/rigid/polyhedron_shape.h"
+#include "engine/rigid/warm_solver.h"
+
+// Bullet's global lengths; the first has no declaration in its headers.
+extern btScalar gDbvtMargin;
+
+namespace scree::rigid {
+
+namespace {
+
+// A typical length of the free blocks, to which the lengths of the contact search are tied: the mean cube root of volume [m].
+double length_scale(const mesh::BlockMesh<3>& mesh) {
+  double sum = 0;
+  double count = 0;
+  for (const mesh::Block& block : mesh.blocks) {
+    if (mesh.bodies[block.body].fixed) continue;
+    double volume = 0;
+    for (const ElementId e : block.elements) volume += mesh::element_volume(mesh, e);
+    sum += std::cbrt(volume);
+    ++count;
+  }
+  return count > 0 ? sum / count : 1.0;
+}
+
+// The fractions are those measured to work on the pile of 25 mm blocks: 1 mm, 0.2 mm and 1 um (README.md).
+ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& options) {
+  const double scale = length_scale(mesh);
+  return {0.04 * scale, 0.008 * scale, 4e-5 * scale, 2 * options.gravity.norm() * options.step};
+}
+
+btTransform transform_of(const Pose& pose) {
+  const auto& q = pose.rotation;
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bullet(pose.translation));
+}
+
+Pose pose_of(const btTransform& transform) {
+  const btQuaternion q = transform.getRotation();
+  return {from_bullet(transform.getOrigin()), Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized()};
+}
+
+Pose inverse(const Pose& pose) {
+  const Eigen::Quaterniond back = pose.rotation.conjugate();
+  return {back * -pose.translation, back};
+}
+
+Pose operator*(const Pose& outer, const Pose& inner) {
+  return {outer * inner.translation, (outer.rotation * inner.rotation).normalized()};
+}
+
+mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
+  for (auto& vertex : piece.vertices) vertex = by * vertex;
+  for (auto& face : piece.faces) face.normal = by.rotation * face.normal;
+  return piece;
+}
+
+double density_of(const Material& material) {
+  if (material.density && *material.density > 0) return *material.density;
+  Problem problem;
+  problem.key = "materials." + material.name + ".density";
+  problem.value = material.density ? std::to_string(*material.density) : "missing";
+  problem.rule = "positive, kg/m3";
+  problem.suggestion = "A block that falls needs the density of its material.";
+  throw InputError(problem);
+}
+
+}  // namespace
+
+struct World::Bullet {
+  Bullet(const ContactRanges& ranges, int blocks)
+      : configuration(ranges, blocks), dispatcher(&configuration), world(&dispatcher, &broadphase, &solver, &configuration) {
+    gDbvtMargin = ranges.near;
+    gContactBreakingThreshold = ranges.near;  // added to every bounding box
+    dispatcher.setDispatcherFlags(dispatcher.getDispatcherFlags() &
+                                  ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+    btContactSolverInfo& info = world.getSolverInfo();
+    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
+                        SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION |
+                        SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
+    info.m_warmstartingFactor = 1;
+    info.m_splitImpulse = 1;
+    info.m_splitImpulsePenetrationThreshold = 0;
+    info.m_restitutionVelocityThreshold = ranges.bounce_speed;
+    // One group: a pile is one island anyway.
+    world.getSimulationIslandManager()->setSplitIslands(false);
+  }
+
+  CollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher;
+  btDbvtBroadphase broadphase;
+  WarmSolver solver;
+  btDiscreteDynamicsWorld world;
+};
+
+struct World::Item {
+  std::vector<std::unique_ptr<PolyhedronShape>> pieces;
+  std::unique_ptr<btCompoundShape> compound;  // of several pieces
+  std::unique_ptr<btRigidBody> body;
+  Pose frame;  // from the body's axes (centre of mass, principal) to the mesh's
+  double mass = 0;
+  double radius = 0;
+};
+
+World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
+    : bullet_(std::make_unique<Bullet>(ranges_for(mesh, options), static_cast<int>(mesh.blocks.size()))) {
+  bullet_->world.setGravity(to_bullet(options.gravity));
+  for (const BlockId block : mesh.blocks.ids()) {
+    const mesh::Body& owner = mesh.bodies[mesh.blocks[block].body];
+    const Material& material = materials[owner.material];
+    Item& item = items_.emplace_back();
+    btVector3 inertia(0, 0, 0);
+    if (!owner.fixed) {
+      const MassProperties properties = mass_properties(mesh, block, density_of(material));
+      item.frame = {properties.centre, properties.principal};
+      item.mass = properties.mass;
+      inertia = to_bullet(properties.inertia);
+    }
+    for (mesh::ConvexPiece& piece : mesh::convex_pieces(mesh, block)) {
+      item.pieces.push_back(std::make_unique<PolyhedronShape>(moved(std::move(piece), inverse(item.frame))));
+      item.radius = std::max(item.radius, item.pieces.back()->radius());
+    }
+    btCollisionShape* shape = item.pieces.front().get();
+    if (item.pieces.size() > 1) {
+      item.compound = std::make_unique<btCompoundShape>();
+      for (const auto& piece : item.pieces) item.compound->addChildShape(btTransform::getIdentity(), piece.get());
+      shape = item.compound.get();
+    }
+    btRigidBody::btRigidBodyConstructionInfo info(item.mass, nullptr, shape, inertia);
+    info.m_startWorldTransform = transform_of(item.frame);
+    info.m_friction = material.friction;
+    info.m_restitution = material.restitution;
+    item.body = std::make_unique<btRigidBody>(info);
+    // Rest is a matter of speed and forces; a body is never put to sleep.
+    item.body->setActivationState(DISABLE_DEACTIVATION);
+    bullet_->world.addRigidBody(item.body.get());
+    if (owner.fixed) continue;
+    item.body->setLinearVelocity(to_bullet(owner.velocity));
+    free_.push_back(block);
+    free_bodies_.push_back(item.body.get());
+  }
+}
+
+World::~World() {
+  for (Item& item : items_) bullet_->world.removeRigidBody(item.body.get());
+}
+
+void World::step(double time_step, int iterations) {
+  bullet_->world.getSolverInfo().m_numIterations = iterations;
+  bullet_->world.stepSimulation(time_step, 0);
+}
+
+double World::radius(BlockId block) const {
+  return items_[block.index()].radius;
+}
+
+double World::mass(BlockId block) const {
+  return items_[block.index()].mass;
+}
+
+Table<BlockId, Pose> World::poses() const {
+  Table<BlockId, Pose> result(items_.size());
+  for (const BlockId block : result.ids()) {
+    const Item& item = items_[block.index()];
+    if (item.mass > 0) result[block] = pose_of(item.body->getWorldTransform()) * inverse(item.frame);
+  }
+  return result;
+}
+
+double World::mean_contact_force(double time_step) const {
+  double sum = 0;
+  double pairs = 0;
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
+    btVector3 impulse(0, 0, 0);
+    for (int j = 0; j < manifold.getNumContacts(); ++j) {
+      const btManifoldPoint& point = manifold.getContactPoint(j);
+      impulse += point.m_appliedImpulse * point.m_normalWorldOnB +
+                 point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+    }
+    if (impulse.length2() <= 0) continue;
+    sum += impulse.length() / time_step;
+    ++pairs;
+  }
+  return pairs > 0 ? sum / pairs : 0.0;
+}
+
+void World::translate_free(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity) {
+  for (btRigidBody* body : free_bodies_) {
+    body->translate(to_bullet(way));
+    body->setInterpolationWorldTransform(body->getWorldTransform());
+    body->setLinearVelocity(to_bullet(velocity));
+    body->setInterpolationLinearVelocity(to_bullet(velocity));
+  }
+}
+
+void World::remove(BlockId block) {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    if (free_[i] != block) continue;
+    bullet_->world.removeRigidBody(free_bodies_[i]);
+    free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(i));
+    free_bodies_.erase(free_bodies_.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
+}
+
+}  // namespace scree::rigid

@@ -1,0 +1,48 @@
+// The blocks as Bullet's rigid bodies.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/base/material.h"
+#include "engine/mesh/convex_pieces.h"
+#include "engine/rigid/settle.h"
+
+class btRigidBody;
+
+namespace scree::rigid {
+
+class World {
+ public:
+  World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // One step of collision detection, contact solution and integration.
+  void step(double time_step, int iterations);
+
+  // The free blocks still in the scene, and their bodies in the same order.
+  [[nodiscard]] const std::vector<BlockId>& free_blocks() const { return free_; }
+  [[nodiscard]] const std::vector<btRigidBody*>& free_bodies() const { return free_bodies_; }
+  [[nodiscard]] double radius(BlockId block) const;  // of the smallest sphere about its centre that holds it [m]
+  [[nodiscard]] double mass(BlockId block) const;    // [kg]
+  [[nodiscard]] Table<BlockId, Pose> poses() const;
+  // Mean over the touching pairs of the magnitude of the contact force of the last step [N].
+  [[nodiscard]] double mean_contact_force(double time_step) const;
+
+  // Moves all free blocks by the same way and gives them the same velocity.
+  void translate_free(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity);
+  // Takes a block out of the scene and keeps it where it is.
+  void remove(BlockId block);
+
+ private:
+  struct Bullet;
+  struct Item;
+  std::unique_ptr<Bullet> bullet_;
+  std::vector<Item> items_;  // one per block
+  std::vector<BlockId> free_;
+  std::vector<btRigidBody*> free_bodies_;
+};
+
+}  // namespace scree::rigid
