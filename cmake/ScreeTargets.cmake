@@ -21,11 +21,18 @@ function(scree_room name)
   target_compile_features(${name} PUBLIC cxx_std_20)
 endfunction()
 
-# scree_test(NAME SOURCES ... LINKS ...): a GoogleTest program whose cases CTest knows one by one.
+# scree_test(NAME SOURCES ... LINKS ... [SUITES ...]): a GoogleTest program whose cases CTest knows one by one, or, where the
+# cases of a suite share a costly run, suite by suite.
 function(scree_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS;SUITES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_LINKS} scree_flags GTest::gtest_main GTest::gmock)
   target_compile_definitions(${name} PRIVATE SCREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+  if(TEST_SUITES)
+    foreach(suite IN LISTS TEST_SUITES)
+      add_test(NAME ${name}.${suite} COMMAND ${name} --gtest_filter=${suite}.*:*/${suite}.*)
+    endforeach()
+  else()
+    gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+  endif()
 endfunction()
