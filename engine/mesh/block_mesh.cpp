@@ -79,7 +79,8 @@ double element_mean_edge(const BlockMesh<dim>& mesh, ElementId element) {
   for (int i = 0; i <= dim; ++i) {
     for (int j = 0; j < i; ++j) sum += (mesh.nodes[corner[i]] - mesh.nodes[corner[j]]).norm();
   }
-  return sum / (dim * (dim + 1) / 2);
+  constexpr int edges = dim * (dim + 1) / 2;
+  return sum / edges;
 }
 
 template <int dim>
