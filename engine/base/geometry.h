@@ -16,12 +16,10 @@ using Aabb = Eigen::AlignedBox<double, dim>;  // [m]
 
 // Where a block is: world = rotation * reference + translation. A scene in 2-D uses x and y only.
 struct Pose {
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();           // [m]
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // [m]
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // unit
 
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& reference) const {
-    return rotation * reference + translation;
-  }
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& reference) const { return rotation * reference + translation; }
 };
 
 }  // namespace scree

@@ -14,13 +14,13 @@
 
 namespace scree::mesh {
 
-struct Box {  // a rectangle in 2-D (size z unused)
+struct Box {                                       // a rectangle in 2-D (size z unused)
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  // edge lengths [m]
 };
-struct Sphere {  // a disc in 2-D
+struct Sphere {         // a disc in 2-D
   double diameter = 0;  // [m]
 };
-struct Cylinder {  // axis along z; 3-D only
+struct Cylinder {       // axis along z; 3-D only
   double diameter = 0;  // [m]
   double height = 0;    // [m]
 };
@@ -40,15 +40,15 @@ struct AtPoses {
 };
 // count[0] x count[1] x count[2] copies, centred on `centre`.
 struct OnLattice {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // [m]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]
   std::array<int, 3> count{1, 1, 1};
-  Eigen::Vector3d spacing = Eigen::Vector3d::Zero();  // centre to centre [m]
+  Eigen::Vector3d spacing = Eigen::Vector3d::Zero();             // centre to centre [m]
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // of each copy
 };
 // `count` copies with centres drawn in a box so that no two bounding spheres overlap.
 struct AtRandom {
   int count = 1;
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();   // corners of the region that holds the copies whole [m]
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();  // corners of the region that holds the copies whole [m]
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
   std::uint64_t seed = 1;
   bool random_rotation = true;
@@ -64,7 +64,7 @@ struct BodySpec {
   MaterialId material;
   bool fixed = false;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at the start [m/s]
-  SourceLocation where;  // of the shape in the scene, for messages
+  SourceLocation where;                                // of the shape in the scene, for messages
 };
 
 }  // namespace scree::mesh

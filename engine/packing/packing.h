@@ -13,17 +13,17 @@ namespace scree::packing {
 // What is known about a settled pile; the run's evidence for "at rest".
 struct SettleReport {
   bool at_rest = false;
-  std::string criterion;           // in words and numbers, what "at rest" meant
-  double simulated_time = 0;       // [s]
-  double rms_speed = 0;            // over free blocks, at the end [m/s]
-  double max_speed = 0;            // fastest free block at the end [m/s]
-  double unbalanced_force = 0;     // mean net force on a block over mean contact force on a block, at the end [-]
-  double max_displacement = 0;     // of any free block over the last window [m]
-  double window = 0;               // that window [s]
-  double max_penetration = 0;      // over all pairs, on the true geometry [m]
-  double mean_penetration = 0;     // over the pairs that touch [m]
-  double mean_edge = 0;            // of the free blocks' elements [m]
-  double top = 0;                  // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
+  std::string criterion;        // in words and numbers, what "at rest" meant
+  double simulated_time = 0;    // [s]
+  double rms_speed = 0;         // over free blocks, at the end [m/s]
+  double max_speed = 0;         // fastest free block at the end [m/s]
+  double unbalanced_force = 0;  // mean net force on a block over mean contact force on a block, at the end [-]
+  double max_displacement = 0;  // of any free block over the last window [m]
+  double window = 0;            // that window [s]
+  double max_penetration = 0;   // over all pairs, on the true geometry [m]
+  double mean_penetration = 0;  // over the pairs that touch [m]
+  double mean_edge = 0;         // of the free blocks' elements [m]
+  double top = 0;  // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
   std::vector<BlockId> lost_blocks;  // left the scene; frozen where they left it
 };
 
