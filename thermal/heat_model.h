@@ -16,10 +16,11 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // One row per node of the mesh, in its order. K is symmetric with zero row sums.
 struct HeatModel {
-  Eigen::VectorXd capacity;     // lumped, eq. (7) [J/K]
-  SparseMatrix conductance;     // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
-  Eigen::VectorXd load;         // applied flow and sources, Q_app of eq. (6) [W]
-  Eigen::VectorXd initial;      // [K]
+  Table<NodeId, BlockId> blocks;      // of each node, for messages
+  Eigen::VectorXd capacity;           // lumped, eq. (7) [J/K]
+  SparseMatrix conductance;           // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
+  Eigen::VectorXd load;               // applied flow and sources, Q_app of eq. (6) [W]
+  Eigen::VectorXd initial;            // [K]
   std::vector<NodeId> fixed_nodes;    // ascending
   Eigen::VectorXd fixed_temperature;  // of those nodes [K]
   // For the ledger, by name: what boundary holds each fixed node (index into `boundary_names`), and the load of each boundary

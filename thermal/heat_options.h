@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/check.h"
 #include "engine/base/geometry.h"
 #include "engine/base/ids.h"
 
@@ -14,7 +15,8 @@ namespace scree::thermal {
 // Where on a body something holds: everywhere, or only inside an axis-aligned box of space.
 struct Region {
   BodyId body;
-  std::optional<Aabb<3>> within;  // [m]; includes its faces; 2-D ignores z
+  // [m]; includes its faces, with a billionth of the mesh's extent for rounding; 2-D ignores z.
+  std::optional<Aabb<3>> within;
 };
 
 struct FixedTemperature {
@@ -30,13 +32,15 @@ struct HeatFlow {
 struct Boundary {
   Region region;
   std::variant<FixedTemperature, HeatFlux, HeatFlow> condition;
-  std::string name;  // how the ledger calls it
+  std::string name;      // how the ledger calls it
+  SourceLocation where;  // in the scene, for messages
 };
 
 struct Source {
   Region region;
   double power = 0;  // [W/m3], in every element whose centre is in the region
   std::string name;
+  SourceLocation where;
 };
 
 enum class JointForm {

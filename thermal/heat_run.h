@@ -1,6 +1,7 @@
 // Temperatures in time.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -14,11 +15,11 @@ namespace scree::thermal {
 // Where the heat went, all since t = 0 [J]. Each flow is integrated with the weights of the time scheme, so `residual`
 // is rounding and solver error only.
 struct Ledger {
-  double start_jump = 0;             // to bring the fixed nodes to their temperature at t = 0
-  std::vector<double> by_boundary;   // through fixed nodes, in the order of HeatModel::boundary_names
-  std::vector<double> by_applied;    // in the order of HeatModel::applied_flows
-  double stored = 0;                 // sum of C (T - T_initial)
-  double turnover = 0;               // heat that flowed: integral of the sum of |flow| over boundaries and sources, and |start_jump|
+  double start_jump = 0;            // to bring the fixed nodes to their temperature at t = 0
+  std::vector<double> by_boundary;  // through fixed nodes, in the order of HeatModel::boundary_names
+  std::vector<double> by_applied;   // in the order of HeatModel::applied_flows
+  double stored = 0;                // sum of C (T - T_initial)
+  double turnover = 0;  // heat that flowed: integral of the sum of |flow| over boundaries and sources, and |start_jump|
 
   [[nodiscard]] double residual() const;           // |stored - all that came in| [J]
   [[nodiscard]] double relative_residual() const;  // of turnover; 0 if nothing flowed
@@ -31,39 +32,47 @@ struct HeatState {
   Eigen::VectorXd error;        // estimate of the global time error, one per node [K]
   double next_step = 0;         // what the step control would take [s]
   Ledger ledger;
-  double time_error = 0;        // largest |error| that any node ever had [K]
+  double time_error = 0;  // bound on |error| at any node and any step so far, with the scheme's safety [K]
   std::int64_t steps = 0;
   std::int64_t rejected_steps = 0;
   std::int64_t factorisations = 0;
-  double least_step = 0;        // [s]
-  double largest_step = 0;      // [s]
+  double least_step = 0;    // [s]
+  double largest_step = 0;  // [s]
 };
 
+// Takes a copy of the model. Throws InputError for options that make no sense (an explicit step above the stable one, named
+// with the block that limits it) and RunError if the equations cannot be solved or the tolerance is out of reach.
 class HeatRun {
  public:
   HeatRun(const HeatModel& model, const TimeOptions& options);  // from t = 0
   HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state);
   ~HeatRun();
 
-  // Advances to exactly `time`; `progress` is told the time after every step and may throw to stop.
+  // Advances to exactly `time`, meeting every multiple of `output_every` on the way, so that the steps do not depend on how
+  // often it is called with such times. `progress` is told the time after every step and may throw to stop; the state is then
+  // that of the last whole step.
   void advance_to(double time, const std::function<void(double)>& progress = {});
 
   [[nodiscard]] const HeatState& state() const;
   [[nodiscard]] std::string solver() const;  // in words, for the summary
+  // Whether the time error stayed within the tolerance so far.
+  [[nodiscard]] bool within_tolerance() const;
 
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 K, and the node that limits it.
+// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 K of the free nodes, and the node that limits it.
 struct StableStep {
   double step = 0;
   NodeId node;
 };
+// Infinite, with no node, if every node is fixed.
 StableStep stable_step(const HeatModel& model);
 
-// Restart file (HDF5), whole or not there.
+// Restart file (HDF5), whole or not there; doubles to the bit. `key` says what the state belongs to: read_state throws
+// InputError for another key and for a missing or damaged file.
 void write(const HeatState& state, const std::string& key, const std::filesystem::path& file);
 HeatState read_state(const std::filesystem::path& file, const std::string& key);
 

@@ -1,0 +1,27 @@
+// The unknowns: nodes that no boundary holds. Fixed nodes are eliminated, not penalised.
+#pragma once
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+class FreeNodes {
+ public:
+  explicit FreeNodes(const HeatModel& model);
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(nodes_.size()); }
+  [[nodiscard]] Eigen::Index node(Eigen::Index unknown) const { return nodes_[unknown]; }
+
+  // The free rows of `all`, and back; fixed rows become zero.
+  [[nodiscard]] Eigen::MatrixXd gather(const Eigen::MatrixXd& all) const;
+  [[nodiscard]] Eigen::MatrixXd scatter(const Eigen::MatrixXd& free) const;
+
+  // The lower triangle of `matrix` between free nodes; every diagonal entry is present.
+  [[nodiscard]] SparseMatrix lower_block(const SparseMatrix& matrix) const;
+
+ private:
+  std::vector<Eigen::Index> nodes_;     // of each unknown, ascending
+  std::vector<Eigen::Index> unknowns_;  // of each node, -1 for a fixed one
+};
+
+}  // namespace scree::thermal

@@ -1,0 +1,239 @@
+#include "thermal/heat_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "thermal/problems.h"
+#include "thermal/step_grid.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Step control. A step may add this share of the room left below the tolerance, so that the sum stays below it however many
+// steps there are: modes that still change forget old errors as they decay, which gives room back (README, "Time").
+constexpr double share_of_room = 0.15;
+// Room never counts as less than this share of the tolerance: errors that do not decay must not stop the run. It then ends
+// above its tolerance and says so.
+constexpr double least_room = 0.05;
+// What the step control aims at, of the tolerance.
+constexpr double aim = 0.9;
+// Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
+// allowed.
+constexpr double growth_margin = 0.8;
+
+// Time is on an output time if it is this close to one, in output intervals.
+constexpr double on_grid = 1e-9;
+
+void check_options(const TimeOptions& options) {
+  const auto refuse = [](const std::string& key, double value, const std::string& rule) {
+    throw InputError(problem("heat." + key, fmt::format("{:g}", value), rule));
+  };
+  if (!(options.tolerance > 0)) refuse("tolerance", options.tolerance, "must be positive, K");
+  if (!(options.output_every >= 0)) refuse("output_every", options.output_every, "must not be negative, s");
+  if (options.step && !(*options.step > 0)) refuse("step", *options.step, "must be positive, s");
+}
+
+// The explicit step asked for, or the largest stable one; refuses more.
+double explicit_step(const HeatModel& model, const TimeOptions& options) {
+  const StableStep stable = stable_step(model);
+  const double step = options.step.value_or(stable.step);
+  if (step > stable.step) {
+    throw InputError(problem("heat.step", fmt::format("{:g} s", step),
+                             fmt::format("must be at most the stable step of {:.6g} s, which node {} of block {} sets",
+                                         stable.step, stable.node.value(), model.blocks[stable.node].value()),
+                             "Leave the step out, or use the implicit integrator, which has no such limit"));
+  }
+  return step;
+}
+
+HeatState start(const HeatModel& model) {
+  HeatState state;
+  state.temperature = model.initial;
+  state.error = Eigen::VectorXd::Zero(model.initial.size());
+  state.ledger.by_boundary.assign(model.boundary_names.size(), 0.0);
+  state.ledger.by_applied.assign(model.applied_flows.size(), 0.0);
+  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
+    const auto node = model.fixed_nodes[i].value();
+    const double heat = model.capacity[node] * (model.fixed_temperature[static_cast<Eigen::Index>(i)] - model.initial[node]);
+    state.temperature[node] = model.fixed_temperature[static_cast<Eigen::Index>(i)];
+    state.ledger.start_jump += heat;
+    state.ledger.turnover += std::abs(heat);
+  }
+  state.ledger.stored = model.capacity.dot(state.temperature - model.initial);
+  return state;
+}
+
+}  // namespace
+
+class HeatRun::Implementation {
+ public:
+  Implementation(const HeatModel& model, const TimeOptions& options) : model_(model), options_(options) {
+    check_options(options);
+    if (options.integrator == Integrator::implicit) {
+      scheme_ = make_implicit_scheme(model_);
+    } else {
+      explicit_step_ = explicit_step(model_, options);
+      scheme_ = make_explicit_scheme(model_);
+    }
+    state_ = start(model_);
+  }
+
+  void resume(HeatState state) {
+    const bool fits = state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
+                      state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
+                      state.ledger.by_applied.size() == state_.ledger.by_applied.size();
+    if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
+    state_ = std::move(state);
+    earlier_factorisations_ = state_.factorisations;
+  }
+
+  void advance_to(double target, const std::function<void(double)>& progress) {
+    SCREE_EXPECT(target >= state_.time);
+    const double every = options_.output_every > 0 ? options_.output_every : std::max(options_.until, target);
+    while (state_.time < target) {
+      const double nearest = std::round(state_.time / every);
+      const bool at_output = std::abs(state_.time / every - nearest) <= on_grid;
+      const double begin = at_output ? nearest * every : state_.time;
+      const double next = (at_output ? nearest + 1 : std::ceil(state_.time / every)) * every;
+      const bool whole = target >= next - on_grid * every;
+      const double end = whole ? next : target;
+      // A whole interval has the same length each time, not that of a difference of rounded times.
+      const double length = at_output && whole ? every : end - begin;
+      if (options_.integrator == Integrator::implicit) {
+        implicit_interval(begin, length, progress);
+      } else {
+        explicit_interval(begin, length, progress);
+      }
+      state_.time = std::abs(end - target) <= on_grid * every ? target : end;
+    }
+  }
+
+  [[nodiscard]] const HeatState& state() const { return state_; }
+  [[nodiscard]] std::string solver() const { return scheme_->name(); }
+  [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
+
+ private:
+  void implicit_interval(double begin, double length, const std::function<void(double)>& progress) {
+    if (state_.next_step <= 0) state_.next_step = scheme_->first_step(state_.temperature, allowed(state_.error));
+    StepGrid grid(begin, length, state_.next_step);
+    while (!grid.done()) {
+      const double dt = grid.step();
+      Step step = scheme_->step(state_.temperature, state_.error, dt);
+      state_.factorisations = earlier_factorisations_ + scheme_->factorisations();
+      if (!(step.local_error <= allowed(state_.error))) {
+        refine(grid, step.local_error / allowed(state_.error));
+        continue;
+      }
+      grid.advance();
+      const double limit = growth_margin * allowed(step.error);
+      state_.next_step = dt;
+      for (double expected = 8 * step.local_error; expected <= limit && state_.next_step < 4 * dt; expected *= 8) {
+        // At the interval's end the next one's grid begins, whose steps may be longer.
+        if (!grid.done() && !grid.coarsen()) break;
+        state_.next_step *= 2;
+      }
+      accept(step, dt, grid.time(), progress);
+    }
+  }
+
+  // As often as a third-order local error needs, from `excess` times what is allowed.
+  void refine(StepGrid& grid, double excess) {
+    ++state_.rejected_steps;
+    if (!std::isfinite(excess)) excess = 8;
+    for (double left = excess; left > 1; left /= 8) {
+      if (grid.level() == StepGrid::max_level) {
+        throw RunError(
+            fmt::format("The time steps fell below {:g} s at {:g} s without reaching the tolerance of {:g} K. Ask for a "
+                        "larger tolerance, or look for huge loads or almost empty blocks",
+                        grid.step(), state_.time, options_.tolerance));
+      }
+      grid.refine();
+    }
+  }
+
+  void explicit_interval(double begin, double length, const std::function<void(double)>& progress) {
+    const auto count = static_cast<std::int64_t>(std::max(1.0, std::ceil(length / explicit_step_)));
+    const double dt = length / static_cast<double>(count);
+    for (std::int64_t i = 1; i <= count; ++i) {
+      const Step step = scheme_->step(state_.temperature, state_.error, dt);
+      accept(step, dt, begin + static_cast<double>(i) * dt, progress);
+    }
+  }
+
+  // How much error a step may add [K].
+  [[nodiscard]] double allowed(const Eigen::VectorXd& error) const {
+    const double room = aim * options_.tolerance / scheme_->safety() - error.lpNorm<Eigen::Infinity>();
+    return share_of_room * std::max(room, least_room * options_.tolerance);
+  }
+
+  void accept(const Step& step, double dt, double time, const std::function<void(double)>& progress) {
+    state_.temperature += step.change;
+    state_.error = step.error;
+    if (!state_.temperature.allFinite()) {
+      throw RunError(
+          fmt::format("The temperatures are not finite after {:g} s. Look for huge loads or almost empty blocks", time));
+    }
+    state_.time = time;
+    state_.time_error = std::max(state_.time_error, scheme_->safety() * state_.error.lpNorm<Eigen::Infinity>());
+    ++state_.steps;
+    state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
+    state_.largest_step = std::max(state_.largest_step, dt);
+    book(step, dt);
+    if (progress) progress(time);
+  }
+
+  void book(const Step& step, double dt) {
+    Ledger& ledger = state_.ledger;
+    std::vector<double> supply(model_.boundary_names.size(), 0.0);
+    for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+      supply[model_.fixed_boundary[i]] += step.supply[model_.fixed_nodes[i].value()];
+    }
+    for (std::size_t b = 0; b < supply.size(); ++b) {
+      ledger.by_boundary[b] += dt * supply[b];
+      ledger.turnover += dt * std::abs(supply[b]);
+    }
+    for (std::size_t a = 0; a < model_.applied_flows.size(); ++a) {
+      ledger.by_applied[a] += dt * model_.applied_flows[a].second;
+      ledger.turnover += dt * std::abs(model_.applied_flows[a].second);
+    }
+    ledger.stored = model_.capacity.dot(state_.temperature - model_.initial);
+  }
+
+  HeatModel model_;
+  TimeOptions options_;
+  std::unique_ptr<TimeScheme> scheme_;  // refers to model_
+  double explicit_step_ = 0;            // [s]
+  HeatState state_;
+  std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from
+};
+
+HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options)
+    : implementation_(std::make_unique<Implementation>(model, options)) {}
+
+HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state) : HeatRun(model, options) {
+  implementation_->resume(std::move(state));
+}
+
+HeatRun::~HeatRun() = default;
+
+void HeatRun::advance_to(double time, const std::function<void(double)>& progress) {
+  implementation_->advance_to(time, progress);
+}
+
+const HeatState& HeatRun::state() const {
+  return implementation_->state();
+}
+
+std::string HeatRun::solver() const {
+  return implementation_->solver();
+}
+
+bool HeatRun::within_tolerance() const {
+  return implementation_->within_tolerance();
+}
+
+}  // namespace scree::thermal

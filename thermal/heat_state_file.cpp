@@ -1,0 +1,168 @@
+// The restart file: HDF5, one data set per vector, the rest as two lists, and a digest of it all, so that a damaged file is
+// noticed.
+#include <H5Cpp.h>
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+#include "engine/base/hash.h"
+#include "thermal/heat_run.h"
+#include "thermal/problems.h"
+
+namespace scree::thermal {
+
+namespace {
+
+constexpr const char* format_name = "scree heat state 1";
+
+using Doubles = std::vector<double>;
+using Counts = std::vector<std::int64_t>;
+
+// A state as plain lists, in the order in which they are written.
+struct Lists {
+  Doubles temperature, error, by_boundary, by_applied, numbers;
+  Counts counts;
+};
+
+Doubles list_of(const Eigen::VectorXd& vector) {
+  return {vector.begin(), vector.end()};
+}
+
+Eigen::VectorXd vector_of(const Doubles& list) {
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
+Lists pack(const HeatState& state) {
+  const Ledger& ledger = state.ledger;
+  return {list_of(state.temperature),
+          list_of(state.error),
+          ledger.by_boundary,
+          ledger.by_applied,
+          {state.time, state.next_step, state.time_error, state.least_step, state.largest_step, ledger.start_jump,
+           ledger.stored, ledger.turnover},
+          {state.steps, state.rejected_steps, state.factorisations}};
+}
+
+HeatState unpack(const Lists& lists) {
+  HeatState state;
+  state.temperature = vector_of(lists.temperature);
+  state.error = vector_of(lists.error);
+  state.ledger.by_boundary = lists.by_boundary;
+  state.ledger.by_applied = lists.by_applied;
+  state.time = lists.numbers.at(0);
+  state.next_step = lists.numbers.at(1);
+  state.time_error = lists.numbers.at(2);
+  state.least_step = lists.numbers.at(3);
+  state.largest_step = lists.numbers.at(4);
+  state.ledger.start_jump = lists.numbers.at(5);
+  state.ledger.stored = lists.numbers.at(6);
+  state.ledger.turnover = lists.numbers.at(7);
+  state.steps = lists.counts.at(0);
+  state.rejected_steps = lists.counts.at(1);
+  state.factorisations = lists.counts.at(2);
+  return state;
+}
+
+std::string digest(const std::string& key, const Lists& lists) {
+  Hasher hasher;
+  hasher.add(key);
+  for (const Doubles* list : {&lists.temperature, &lists.error, &lists.by_boundary, &lists.by_applied, &lists.numbers}) {
+    hasher.add(list->size()).add_bytes(list->data(), list->size() * sizeof(double));
+  }
+  hasher.add_bytes(lists.counts.data(), lists.counts.size() * sizeof(std::int64_t));
+  return hasher.hex();
+}
+
+template <class T>
+const H5::PredType& type_of();
+template <>
+const H5::PredType& type_of<double>() {
+  return H5::PredType::NATIVE_DOUBLE;
+}
+template <>
+const H5::PredType& type_of<std::int64_t>() {
+  return H5::PredType::NATIVE_INT64;
+}
+
+template <class T>
+void put(H5::H5File& file, const char* name, const std::vector<T>& list) {
+  const hsize_t size = list.size();
+  file.createDataSet(name, type_of<T>(), H5::DataSpace(1, &size)).write(list.data(), type_of<T>());
+}
+
+template <class T>
+void get(const H5::H5File& file, const char* name, std::vector<T>& list) {
+  const H5::DataSet set = file.openDataSet(name);
+  list.resize(static_cast<std::size_t>(set.getSpace().getSimpleExtentNpoints()));
+  set.read(list.data(), type_of<T>());
+}
+
+void put_text(H5::H5File& file, const char* name, const std::string& text) {
+  const H5::StrType type(H5::PredType::C_S1, text.size() + 1);
+  file.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, text);
+}
+
+std::string get_text(const H5::H5File& file, const char* name) {
+  const H5::Attribute attribute = file.openAttribute(name);
+  std::string text;
+  attribute.read(attribute.getStrType(), text);
+  return text.substr(0, text.find('\0'));
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule, const std::string& suggestion) {
+  Problem wrong = problem("heat state", "", rule, suggestion);
+  wrong.where.file = file.string();
+  throw InputError(wrong);
+}
+
+}  // namespace
+
+void write(const HeatState& state, const std::string& key, const std::filesystem::path& file) {
+  H5::Exception::dontPrint();
+  write_atomically(file, [&](const std::filesystem::path& temporary) {
+    try {
+      const Lists lists = pack(state);
+      H5::H5File out(temporary.string(), H5F_ACC_TRUNC);
+      put_text(out, "format", format_name);
+      put_text(out, "key", key);
+      put_text(out, "digest", digest(key, lists));
+      put(out, "temperature", lists.temperature);
+      put(out, "error", lists.error);
+      put(out, "by_boundary", lists.by_boundary);
+      put(out, "by_applied", lists.by_applied);
+      put(out, "numbers", lists.numbers);
+      put(out, "counts", lists.counts);
+    } catch (const H5::Exception& failure) {
+      throw RunError(fmt::format("{} could not be written: {}", temporary.string(), failure.getDetailMsg()));
+    }
+  });
+}
+
+HeatState read_state(const std::filesystem::path& file, const std::string& key) {
+  H5::Exception::dontPrint();
+  if (!std::filesystem::exists(file)) refuse(file, "no such file", "Run the scene from its start");
+  const std::string damaged = "must be a whole heat state; this one is damaged or something else";
+  try {
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    if (get_text(in, "format") != format_name) refuse(file, damaged, "Delete it and run the scene from its start");
+    const std::string found = get_text(in, "key");
+    Lists lists;
+    get(in, "temperature", lists.temperature);
+    get(in, "error", lists.error);
+    get(in, "by_boundary", lists.by_boundary);
+    get(in, "by_applied", lists.by_applied);
+    get(in, "numbers", lists.numbers);
+    get(in, "counts", lists.counts);
+    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 8 && lists.counts.size() == 3;
+    if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
+    if (found != key) {
+      refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",
+             "Run the scene from its start");
+    }
+    return unpack(lists);
+  } catch (const H5::Exception&) {
+    refuse(file, damaged, "Delete it and run the scene from its start");
+  }
+}
+
+}  // namespace scree::thermal

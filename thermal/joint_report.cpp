@@ -1,0 +1,81 @@
+#include "thermal/joint_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/base/check.h"
+#include "thermal/contact_conduction.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Sums over the contacts of a pair, from which the report's means come.
+struct Sums {
+  double conductance = 0;  // [W/K]
+  double size_over_k = 0;  // sum of L/k [m2 K/W]
+};
+
+template <int dim>
+Table<BlockId, double> block_sizes(const mesh::BlockMesh<dim>& mesh) {
+  Table<BlockId, double> sizes(mesh.blocks.size());
+  for (const BlockId b : mesh.blocks.ids()) {
+    double volume = 0;
+    for (const ElementId e : mesh.blocks[b].elements) volume += mesh::element_volume(mesh, e);
+    sizes[b] = std::pow(volume, 1.0 / dim);
+  }
+  return sizes;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<JointReport> joint_reports(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                       const contact::ContactSet<dim>& contacts, const JointOptions& joint,
+                                       const std::vector<double>& flows) {
+  SCREE_EXPECT(flows.size() == contacts.contacts.size());
+  const Table<BlockId, double> sizes = block_sizes(mesh);
+  std::map<std::pair<BodyId, BodyId>, std::pair<JointReport, Sums>> pairs;
+  for (std::size_t c = 0; c < flows.size(); ++c) {
+    const auto& contact = contacts.contacts[c];
+    const BodyId owner = mesh.blocks[contact.owner].body;
+    const BodyId target = mesh.blocks[contact.target].body;
+    auto& [report, sums] = pairs[{std::min(owner, target), std::max(owner, target)}];
+    if (report.area == 0) report.least_conductance = std::numeric_limits<double>::infinity();
+    const double k = mean_conductivity(mesh, materials, contact);
+    const double conductance = contact_conductance(contact, k, joint);
+    const bool on_face = contact.kind == contact::Kind::point_face;
+    ++(on_face ? report.point_face : report.edge_edge);
+    report.area += contact.area;
+    if (on_face) report.touching_area += 0.5 * contact.area;
+    report.least_conductance = std::min(report.least_conductance, conductance / contact.area);
+    report.largest_conductance = std::max(report.largest_conductance, conductance / contact.area);
+    if (owner != target) report.flow += owner < target ? flows[c] : -flows[c];
+    report.absolute_flow += std::abs(flows[c]);
+    sums.conductance += conductance;
+    sums.size_over_k += sizes[contact.owner] / k;
+  }
+  std::vector<JointReport> reports;
+  for (auto& [bodies, entry] : pairs) {
+    auto& [report, sums] = entry;
+    report.first = bodies.first;
+    report.second = bodies.second;
+    report.stiffness_factor = joint.stiffness_factor;
+    report.mean_conductance = sums.conductance / report.area;
+    report.joint_conductance = report.touching_area > 0 ? sums.conductance / report.touching_area : 0;
+    report.biot = report.joint_conductance * sums.size_over_k / static_cast<double>(report.point_face + report.edge_edge);
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+template std::vector<JointReport> joint_reports<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
+                                                   const contact::ContactSet<2>&, const JointOptions&,
+                                                   const std::vector<double>&);
+template std::vector<JointReport> joint_reports<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
+                                                   const contact::ContactSet<3>&, const JointOptions&,
+                                                   const std::vector<double>&);
+
+}  // namespace scree::thermal

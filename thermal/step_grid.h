@@ -1,0 +1,49 @@
+// Where steps may end: an interval between two output times, halved again and again.
+//
+// Steps of one interval are its length over a power of two and aligned, so the interval's end is met exactly, only a few
+// different steps occur (each costs a factorisation), and a run resumed at an output time takes the same steps to the bit.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace scree::thermal {
+
+class StepGrid {
+ public:
+  // The coarsest steps that are no longer than `wanted`.
+  StepGrid(double start, double length, double wanted) : start_(start), length_(length) {
+    while (step() > wanted && level_ < max_level) ++level_;
+  }
+
+  static constexpr int max_level = 52;  // beyond it the position is no exact double
+
+  [[nodiscard]] double step() const { return std::ldexp(length_, -level_); }
+  [[nodiscard]] double time() const { return start_ + static_cast<double>(position_) * step(); }
+  [[nodiscard]] bool done() const { return position_ == std::int64_t{1} << level_; }
+  [[nodiscard]] int level() const { return level_; }
+
+  void advance() { ++position_; }
+
+  // Halves the step; not possible beyond max_level.
+  void refine() {
+    ++level_;
+    position_ *= 2;
+  }
+
+  // Doubles the step where the grid allows it: not on an odd position, and not above the whole interval.
+  bool coarsen() {
+    if (level_ == 0 || position_ % 2 != 0) return false;
+    --level_;
+    position_ /= 2;
+    return true;
+  }
+
+ private:
+  double start_;   // [s]
+  double length_;  // [s]
+  int level_ = 0;  // steps are length / 2^level
+  std::int64_t position_ = 0;
+};
+
+}  // namespace scree::thermal
