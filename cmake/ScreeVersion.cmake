@@ -19,4 +19,4 @@ string(REGEX REPLACE "[^0-9;]" "" lines "${lines}")
 list(JOIN lines "." SCREE_CHOLMOD_VERSION)
 
 configure_file(${PROJECT_SOURCE_DIR}/engine/base/version.cpp.in ${PROJECT_BINARY_DIR}/engine/base/version.cpp @ONLY)
-scree_room(scree_version SOURCES ${PROJECT_BINARY_DIR}/engine/base/version.cpp)
+scree_room(scree_version SOURCES ${PROJECT_BINARY_DIR}/engine/base/version.cpp engine/base/version_text.cpp PRIVATE_LINKS fmt::fmt)

@@ -1,7 +1,9 @@
 // Which Scree this is, and which libraries it was built with: for `scree --version` and the run summary.
+// A library of its own, scree_version (cmake/ScreeVersion.cmake).
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace scree {
@@ -20,5 +22,8 @@ std::string_view build_type();
 
 // The libraries that results may depend on.
 std::span<const LibraryVersion> library_versions();
+
+// All of that for a reader, one line each.
+std::string version_text();
 
 }  // namespace scree
