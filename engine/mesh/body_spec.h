@@ -16,19 +16,23 @@ namespace scree::mesh {
 
 struct Box {                                       // a rectangle in 2-D (size z unused)
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  // edge lengths [m]
+  friend bool operator==(const Box&, const Box&) = default;
 };
 struct Sphere {         // a disc in 2-D
   double diameter = 0;  // [m]
+  friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 struct Cylinder {       // axis along z; 3-D only
   double diameter = 0;  // [m]
   double height = 0;    // [m]
+  friend bool operator==(const Cylinder&, const Cylinder&) = default;
 };
-// A closed surface (.stl) or a volume mesh (Gmsh .msh 4, .vtu); a surface is meshed inside with the body's mesh_size,
-// a volume mesh is used as it is.
+// A closed surface (.stl, .msh, .vtu) or a volume mesh (Gmsh .msh 4, .vtu), in the file's own coordinates; a surface is
+// meshed inside with the body's mesh_size, a volume mesh is used as it is.
 struct MeshFile {
   std::filesystem::path path;
   double scale = 1;  // metres per unit of the file
+  friend bool operator==(const MeshFile&, const MeshFile&) = default;
 };
 using Shape = std::variant<Box, Sphere, Cylinder, MeshFile>;
 

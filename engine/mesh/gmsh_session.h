@@ -1,0 +1,25 @@
+// Gmsh, quiet and reproducible: one model at a time, no option files, one thread, fixed seed.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "engine/mesh/raw_mesh.h"
+
+namespace scree::mesh {
+
+// What Gmsh said when it failed.
+struct GmshFailure {
+  std::string reason;
+};
+
+// Runs `work` in a fresh Gmsh; whatever Gmsh throws comes out as a GmshFailure.
+void with_gmsh(const std::function<void()>& work);
+
+// Makes the elements of the current model about `mesh_size` long and fills dimension `dimension` with them.
+void generate(int dimension, double mesh_size);
+
+// The nodes and elements of the current model.
+RawMesh model_mesh();
+
+}  // namespace scree::mesh

@@ -1,0 +1,162 @@
+#include "engine/mesh/shape_mesh.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "engine/mesh/gmsh_session.h"
+#include "engine/mesh/problems.h"
+
+namespace scree::mesh {
+
+namespace {
+
+constexpr double most_elements = 2e7;
+
+// Gmsh's faces are off by rounding; a block that lies on its face should not lean.
+constexpr double snap = 1e-9;
+
+double snapped(double value, double target) {
+  return std::abs(std::abs(value) - target) < snap * target ? std::copysign(target, value) : value;
+}
+
+template <int dim>
+void draw(const Box& box) {
+  const Eigen::Vector3d low = -box.size / 2;
+  if constexpr (dim == 2) {
+    gmsh::model::occ::addRectangle(low.x(), low.y(), 0, box.size.x(), box.size.y());
+  } else {
+    gmsh::model::occ::addBox(low.x(), low.y(), low.z(), box.size.x(), box.size.y(), box.size.z());
+  }
+  gmsh::model::occ::synchronize();
+}
+
+// Eight octants rather than OpenCASCADE's sphere, whose seam and poles leave a coarse mesh almost flat.
+void draw_octants(double radius) {
+  namespace geo = gmsh::model::geo;
+  const int centre = geo::addPoint(0, 0, 0);
+  int tip[3][2];
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      const Eigen::Vector3d p = (side == 0 ? radius : -radius) * Eigen::Vector3d::Unit(axis);
+      tip[axis][side] = geo::addPoint(p.x(), p.y(), p.z());
+    }
+  }
+  std::map<std::pair<int, int>, int> arcs;
+  const auto arc = [&](int from, int to) {
+    if (!arcs.contains({from, to})) {
+      const int tag = geo::addCircleArc(from, centre, to);
+      arcs[{from, to}] = tag;
+      arcs[{to, from}] = -tag;
+    }
+    return arcs[{from, to}];
+  };
+  std::vector<int> faces;
+  for (int octant = 0; octant < 8; ++octant) {
+    const int x = tip[0][octant & 1], y = tip[1][(octant >> 1) & 1], z = tip[2][octant >> 2];
+    const bool mirrored = (((octant & 1) + ((octant >> 1) & 1) + (octant >> 2)) % 2) == 1;
+    const int loop =
+        mirrored ? geo::addCurveLoop({arc(x, z), arc(z, y), arc(y, x)}) : geo::addCurveLoop({arc(x, y), arc(y, z), arc(z, x)});
+    faces.push_back(geo::addSurfaceFilling({loop}, octant + 1, centre));
+  }
+  geo::addVolume({geo::addSurfaceLoop(faces)});
+  geo::synchronize();
+}
+
+template <int dim>
+void draw(const Sphere& sphere) {
+  const double radius = sphere.diameter / 2;
+  if constexpr (dim == 2) {
+    gmsh::model::occ::addDisk(0, 0, 0, radius, radius);
+    gmsh::model::occ::synchronize();
+  } else {
+    draw_octants(radius);
+  }
+}
+
+template <int dim>
+void draw(const Cylinder& cylinder) {
+  gmsh::model::occ::addCylinder(0, 0, -cylinder.height / 2, 0, 0, cylinder.height, cylinder.diameter / 2);
+  gmsh::model::occ::synchronize();
+}
+
+void to_surface(const Box& box, Eigen::Vector3d& p) {
+  for (int axis = 0; axis < 3; ++axis) p[axis] = snapped(p[axis], box.size[axis] / 2);
+}
+// Onto the circle or sphere around the first `axes` coordinates, if it is there but for rounding.
+void to_radius(double radius, int axes, Eigen::Vector3d& p) {
+  const double distance = p.head(axes).norm();
+  if (std::abs(distance - radius) < 1e-6 * radius) p.head(axes) *= radius / distance;
+}
+void to_surface(const Sphere& sphere, Eigen::Vector3d& p) {
+  to_radius(sphere.diameter / 2, 3, p);
+}
+void to_surface(const Cylinder& cylinder, Eigen::Vector3d& p) {
+  p.z() = snapped(p.z(), cylinder.height / 2);
+  to_radius(cylinder.diameter / 2, 2, p);
+}
+
+template <int dim>
+double volume(const Box& box) {
+  return dim == 2 ? box.size.x() * box.size.y() : box.size.prod();
+}
+template <int dim>
+double volume(const Sphere& sphere) {
+  const double radius = sphere.diameter / 2;
+  return dim == 2 ? std::numbers::pi * radius * radius : 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+template <int dim>
+double volume(const Cylinder& cylinder) {
+  return std::numbers::pi / 4 * cylinder.diameter * cylinder.diameter * cylinder.height;
+}
+
+template <int dim, class ShapeType>
+SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
+  // A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
+  const double expected = volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(body.mesh_size, dim));
+  if (expected > most_elements) {
+    throw body_error(body, "mesh_size", fmt::format("{} m", body.mesh_size),
+                     fmt::format("it would make about {:.2g} elements, and {:.0g} are the most", expected, most_elements),
+                     "Choose a larger mesh_size");
+  }
+  RawMesh raw;
+  with_gmsh([&] {
+    gmsh::model::add(body.name);
+    draw<dim>(shape);
+    generate(dim, body.mesh_size);
+    raw = model_mesh();
+  });
+  for (Eigen::Vector3d& point : raw.points) to_surface(shape, point);
+  return whole_of<dim>(raw);
+}
+
+}  // namespace
+
+template <int dim>
+SimplexMesh<dim> mesh_shape(const BodySpec& body) {
+  const auto mesh = [&](const auto& shape) -> SimplexMesh<dim> {
+    using ShapeType = std::decay_t<decltype(shape)>;
+    if constexpr (std::is_same_v<ShapeType, MeshFile>) {
+      throw std::logic_error("mesh_shape: a mesh file is no shape");
+    } else if constexpr (std::is_same_v<ShapeType, Cylinder> && dim == 2) {
+      throw body_error(body, "cylinder", "", "a scene in 2-D has no cylinders", "Use a box or a disc (sphere)");
+    } else {
+      return mesh_drawn<dim>(body, shape);
+    }
+  };
+  try {
+    return std::visit(mesh, body.shape);
+  } catch (const GmshFailure& failure) {
+    throw body_error(body, "", "", fmt::format("Gmsh could not mesh it: {}", failure.reason), "Try another mesh_size");
+  }
+}
+
+template SimplexMesh<2> mesh_shape<2>(const BodySpec&);
+template SimplexMesh<3> mesh_shape<3>(const BodySpec&);
+
+}  // namespace scree::mesh

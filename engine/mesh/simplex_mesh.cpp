@@ -1,0 +1,60 @@
+#include "engine/mesh/simplex_mesh.h"
+
+#include <numeric>
+
+#include <Eigen/LU>
+
+namespace scree::mesh {
+
+template <>
+const std::vector<RawCell<3>>& element_cells<2>(const RawMesh& raw) {
+  return raw.triangles;
+}
+template <>
+const std::vector<RawCell<4>>& element_cells<3>(const RawMesh& raw) {
+  return raw.tetrahedra;
+}
+
+template <int dim>
+double signed_volume(const std::array<Point<dim>, dim + 1>& corners) {
+  Eigen::Matrix<double, dim, dim> edges;
+  for (int i = 0; i < dim; ++i) edges.col(i) = corners[i + 1] - corners[0];
+  return edges.determinant() / (dim == 2 ? 2.0 : 6.0);
+}
+
+template <int dim>
+SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen) {
+  const auto& cells = element_cells<dim>(raw);
+  std::vector<std::size_t> place(raw.points.size(), 0);
+  for (const std::size_t e : chosen) {
+    for (const std::size_t node : cells[e].nodes) place[node] = 1;
+  }
+  SimplexMesh<dim> mesh;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (place[i] == 0) continue;
+    place[i] = mesh.nodes.size();
+    mesh.nodes.push_back(raw.points[i].template head<dim>());
+  }
+  for (const std::size_t e : chosen) {
+    auto nodes = cells[e].nodes;
+    for (std::size_t& node : nodes) node = place[node];
+    mesh.elements.push_back(nodes);
+  }
+  return mesh;
+}
+
+template <int dim>
+SimplexMesh<dim> whole_of(const RawMesh& raw) {
+  std::vector<std::size_t> all(element_cells<dim>(raw).size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return part_of<dim>(raw, all);
+}
+
+template double signed_volume<2>(const std::array<Point<2>, 3>&);
+template double signed_volume<3>(const std::array<Point<3>, 4>&);
+template SimplexMesh<2> part_of<2>(const RawMesh&, const std::vector<std::size_t>&);
+template SimplexMesh<3> part_of<3>(const RawMesh&, const std::vector<std::size_t>&);
+template SimplexMesh<2> whole_of<2>(const RawMesh&);
+template SimplexMesh<3> whole_of<3>(const RawMesh&);
+
+}  // namespace scree::mesh

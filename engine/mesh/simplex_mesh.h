@@ -1,0 +1,39 @@
+// The mesh of one shape, before it is copied and broken into blocks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "engine/base/geometry.h"
+#include "engine/mesh/raw_mesh.h"
+
+namespace scree::mesh {
+
+template <int dim>
+struct SimplexMesh {
+  std::vector<Point<dim>> nodes;                           // [m]
+  std::vector<std::array<std::size_t, dim + 1>> elements;  // positively oriented
+};
+
+// One connected mesh or, from a file, several that share no node.
+template <int dim>
+using Parts = std::vector<SimplexMesh<dim>>;
+
+// The cells that are elements in this dimension.
+template <int dim>
+const std::vector<RawCell<dim + 1>>& element_cells(const RawMesh& raw);
+
+// Area or volume of a simplex, negative if its corners run the wrong way round.
+template <int dim>
+double signed_volume(const std::array<Point<dim>, dim + 1>& corners);
+
+// The elements `chosen` of `raw` and the nodes they use, both in the order of `raw`.
+template <int dim>
+SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen);
+
+// All elements of `raw`.
+template <int dim>
+SimplexMesh<dim> whole_of(const RawMesh& raw);
+
+}  // namespace scree::mesh
