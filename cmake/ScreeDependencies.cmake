@@ -3,7 +3,9 @@
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(yaml-cpp REQUIRED)
+pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)

@@ -1,0 +1,139 @@
+#include "engine/base/check_values.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "engine/base/nearest.h"
+
+namespace scree {
+
+namespace {
+
+using Kind = InputValue::Kind;
+
+// What is wrong with one value, and the checked value it belongs to.
+struct Place {
+  const Key& key;
+  int dimension;
+  Checked& checked;
+  std::vector<Problem>& problems;
+
+  void refuse(const InputValue& value, const std::string& reason, const std::string& suggestion) const {
+    std::string rule = rule_words(key, dimension);
+    if (!reason.empty()) rule += "; " + reason;
+    problems.push_back({value.where, checked.path, describe(value), rule, suggestion});
+    checked.sound = false;
+  }
+};
+
+// "-2.0" for something positive is often only the sign.
+std::string without_sign(const InputValue& value, const Key& key, double number) {
+  if (number >= 0 || !key.range.holds(-number) || value.text.empty() || value.text.front() != '-') return {};
+  return fmt::format("Did you mean {}?", value.text.substr(1));
+}
+
+double quantity_value(const InputValue& value, const Place& place) {
+  const auto parsed = parse_quantity(value.text, place.key.quantity);
+  if (const auto* problem = std::get_if<UnitProblem>(&parsed)) {
+    place.refuse(value, problem->reason, problem->suggestion);
+    return 0;
+  }
+  const double number = std::get<double>(parsed);
+  if (place.key.range.holds(number)) return number;
+  place.refuse(value, "", without_sign(value, place.key, number));
+  return 0;
+}
+
+// Kept as a double, which holds every integer up to 2^53.
+double integer_value(const InputValue& value, const Place& place) {
+  constexpr long long largest = 1LL << 53;
+  const std::string& text = value.text;
+  long long number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = end == text.data() + text.size() && !text.empty();
+  if (error == std::errc::result_out_of_range || (whole && (number > largest || number < -largest))) {
+    place.refuse(value, "too large", "");
+  } else if (error != std::errc{} || !whole) {
+    place.refuse(value, "", "");
+  } else if (!place.key.range.holds(static_cast<double>(number))) {
+    place.refuse(value, "", without_sign(value, place.key, static_cast<double>(number)));
+  } else {
+    return static_cast<double>(number);
+  }
+  return 0;
+}
+
+double one_number(const InputValue& value, const Place& place) {
+  if (value.kind != Kind::scalar) {
+    place.refuse(value, "", "");
+    return 0;
+  }
+  return place.key.type == KeyType::integer ? integer_value(value, place) : quantity_value(value, place);
+}
+
+void check_numbers(const InputValue& value, const Place& place) {
+  Checked& checked = place.checked;
+  if (place.key.count == Count::one) {
+    checked.text = value.text;
+    checked.numbers = {one_number(value, place)};
+    return;
+  }
+  const auto wanted = static_cast<std::size_t>(place.key.count == Count::four ? 4 : place.dimension);
+  checked.numbers.assign(wanted, 0);
+  if (value.kind != Kind::list || value.items.size() != wanted) {
+    const bool is_list = value.kind == Kind::list;
+    place.refuse(value, is_list ? fmt::format("it has {}", value.items.size()) : "", "");
+    return;
+  }
+  Key item_key = place.key;
+  item_key.count = Count::one;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    Checked item;
+    item.path = fmt::format("{}[{}]", checked.path, i);
+    check_value(value.items[i], item_key, place.dimension, item, place.problems);
+    checked.texts.push_back(item.text);
+    checked.numbers[i] = item.number();
+    checked.sound = checked.sound && item.sound;
+  }
+}
+
+void check_flag(const InputValue& value, const Place& place) {
+  std::string lower = value.text;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  place.checked.numbers = {lower == "true" ? 1.0 : 0.0};
+  if (value.text == "true" || value.text == "false") return;
+  const bool yes = lower == "true" || lower == "yes" || lower == "on" || lower == "1";
+  const bool no = lower == "false" || lower == "no" || lower == "off" || lower == "0";
+  place.refuse(value, "", yes || no ? fmt::format("Did you mean {}?", yes) : "");
+}
+
+void check_word(const InputValue& value, const Place& place) {
+  const auto& words = place.key.words;
+  if (std::find(words.begin(), words.end(), value.text) != words.end()) return;
+  const auto meant = nearest(value.text, words);
+  place.refuse(value, "", meant ? fmt::format("Did you mean {}?", *meant) : "");
+}
+
+}  // namespace
+
+bool is_plain_name(std::string_view name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+  return !name.empty() && letter(name.front()) && std::all_of(name.begin(), name.end(), inner);
+}
+
+void check_value(const InputValue& value, const Key& key, int dimension, Checked& checked, std::vector<Problem>& problems) {
+  const Place place{key, dimension, checked, problems};
+  checked.sound = true;
+  if (key.type == KeyType::quantity || key.type == KeyType::integer) return check_numbers(value, place);
+  checked.text = value.text;
+  if (value.kind != Kind::scalar) return place.refuse(value, "", "");
+  if (key.type == KeyType::flag) return check_flag(value, place);
+  if (key.type == KeyType::word) return check_word(value, place);
+  if (value.text.empty() && key.type != KeyType::text) return place.refuse(value, "", "");
+}
+
+}  // namespace scree

@@ -1,0 +1,138 @@
+#include "engine/base/input.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace scree {
+
+namespace {
+
+// yaml-cpp counts from 0 and has -1 for "nowhere".
+SourceLocation location(const std::string& file, const YAML::Mark& mark) {
+  if (mark.is_null()) return {file, 0, 0};
+  return {file, mark.line + 1, mark.column + 1};
+}
+
+[[noreturn]] void refuse(const SourceLocation& where, const std::string& value, const std::string& rule,
+                         const std::string& suggestion) {
+  Problem problem;
+  problem.where = where;
+  problem.key = "the file";
+  problem.value = value;
+  problem.rule = rule;
+  problem.suggestion = suggestion;
+  throw InputError(std::move(problem));
+}
+
+// Turns nodes into data. Aliases are copied, so that a list holding itself would be endless and nested aliases grow without
+// bound; no scene comes near these limits.
+class Converter {
+ public:
+  explicit Converter(std::string file) : file_(std::move(file)) {}
+
+  InputValue convert(const YAML::Node& node, const SourceLocation& parent, int depth) {
+    InputValue value;
+    value.where = location(file_, node.Mark());
+    if (value.where.line == 0) value.where = parent;
+    constexpr int deepest = 100;
+    constexpr int most = 200'000;
+    if (depth > deepest || ++count_ > most) {
+      refuse(value.where, "too deeply nested or too large", "", "Look for an alias that holds itself");
+    }
+    if (node.IsScalar()) {
+      value.kind = InputValue::Kind::scalar;
+      value.text = node.Scalar();
+    } else if (node.IsSequence()) {
+      value.kind = InputValue::Kind::list;
+      for (const auto& item : node) value.items.push_back(convert(item, value.where, depth + 1));
+    } else if (node.IsMap()) {
+      value.kind = InputValue::Kind::map;
+      for (const auto& pair : node) add_entry(value, pair.first, pair.second, depth);
+    }
+    return value;
+  }
+
+  std::vector<Problem> problems;
+
+ private:
+  void add_entry(InputValue& map, const YAML::Node& name, const YAML::Node& node, int depth) {
+    InputEntry entry;
+    entry.where = location(file_, name.Mark());
+    if (!name.IsScalar()) {
+      problems.push_back({entry.where, "a key", "not a word", "", "Write a name before the colon"});
+      return;
+    }
+    entry.name = name.Scalar();
+    entry.value = convert(node, entry.where, depth + 1);
+    if (const InputValue* first = map.find(entry.name)) {
+      const std::string rule = fmt::format("the first is at line {}", first->where.line);
+      problems.push_back({entry.where, entry.name, "given twice", rule, "Keep one of them"});
+      return;
+    }
+    map.entries.push_back(std::move(entry));
+  }
+
+  std::string file_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+const InputValue* InputValue::find(std::string_view name) const {
+  for (const InputEntry& entry : entries) {
+    if (entry.name == name) return &entry.value;
+  }
+  return nullptr;
+}
+
+InputValue parse_yaml(const std::string& text, const std::string& name) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::Exception& error) {
+    refuse(location(name, error.mark), "not YAML", error.msg, "");
+  }
+  if (documents.size() > 1) {
+    refuse(location(name, documents[1].Mark()), "more than one YAML document", "", "Keep the part before the line ---");
+  }
+  if (documents.empty()) return InputValue{.where = {name, 1, 1}};
+  Converter converter(name);
+  InputValue root = converter.convert(documents.front(), {name, 1, 1}, 0);
+  if (!converter.problems.empty()) throw InputError(std::move(converter.problems));
+  return root;
+}
+
+InputValue read_yaml(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  const bool readable = stream && !std::filesystem::is_directory(file) && text << stream.rdbuf();
+  const bool blank = readable && text.str().empty();
+  if (!readable && !blank) {
+    const std::string reason = std::filesystem::is_directory(file) ? "a folder" : std::strerror(errno);
+    refuse({file.string(), 0, 0}, "not readable", reason, "");
+  }
+  return parse_yaml(text.str(), file.string());
+}
+
+std::string describe(const InputValue& value) {
+  switch (value.kind) {
+    case InputValue::Kind::empty:
+      return "empty";
+    case InputValue::Kind::list:
+      return "a list";
+    case InputValue::Kind::map:
+      return "a map";
+    case InputValue::Kind::scalar:
+      break;
+  }
+  constexpr std::size_t longest = 60;
+  if (value.text.empty()) return "\"\"";
+  return value.text.size() <= longest ? value.text : value.text.substr(0, longest) + "...";
+}
+
+}  // namespace scree

@@ -1,0 +1,130 @@
+#include "engine/base/key_table.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/base/check.h"
+
+namespace scree {
+
+namespace {
+
+std::string item_words(const Key& key) {
+  const std::string range = key.range.words();
+  const std::string unit = key.quantity.unit.empty() ? "" : fmt::format(", {}", key.quantity.unit);
+  if (key.type == KeyType::integer) return range.empty() ? "a whole number" : fmt::format("a whole number, {}", range);
+  const bool vowel = std::string_view("aeiou").find(key.quantity.name.front()) != std::string_view::npos;
+  if (range.empty()) return fmt::format("{} {}{}", vowel ? "an" : "a", key.quantity.name, unit);
+  return range + unit;
+}
+
+std::string number_words(const Key& key, int dimension) {
+  if (key.count == Count::one) return item_words(key);
+  const std::string many = key.count == Count::four ? "4" : (dimension == 0 ? "2 or 3" : std::to_string(dimension));
+  return fmt::format("a list of {}, each {}", many, item_words(key));
+}
+
+std::string entry_words(const Key& key, std::string_view what) {
+  if (key.range.low < 1) return fmt::format("a {}", what);
+  return fmt::format("a {}, at least {}", what, key.range.low);
+}
+
+}  // namespace
+
+bool Range::holds(double value) const {
+  const bool above = low_open ? value > low : value >= low;
+  const bool below = high_open ? value < high : value <= high;
+  return above && below;
+}
+
+std::string Range::words() const {
+  const bool below = std::isfinite(high);
+  if (!std::isfinite(low)) return below ? fmt::format("{} {}", high_open ? "below" : "at most", high) : "";
+  if (!below && low == 0) return low_open ? "positive" : "not negative";
+  std::string text = fmt::format("{} {}", low_open ? "above" : "at least", low);
+  if (below) text += fmt::format(" and {} {}", high_open ? "below" : "at most", high);
+  return text;
+}
+
+std::string Condition::words() const {
+  if (word.empty()) return fmt::format("{} {}", absent ? "without" : "with", key);
+  return fmt::format("{} {}: {}", absent ? "without" : "with", key, word);
+}
+
+const KeyNode* KeyNode::find(std::string_view name) const {
+  for (const auto& [child_name, child] : children) {
+    if (child_name == name) return child.get();
+  }
+  return nullptr;
+}
+
+std::vector<std::string> KeyNode::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, child] : children) all.push_back(name);
+  return all;
+}
+
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> parts{""};
+  for (const char c : path) {
+    if (c == '.' || c == '[') parts.emplace_back();
+    if (c != '.') parts.back() += c;
+  }
+  return parts;
+}
+
+KeyTable::KeyTable(std::vector<Key> keys) : keys_(std::move(keys)) {
+  for (const Key& key : keys_) {
+    KeyNode* node = &root_;
+    const std::vector<std::string> parts = split_path(key.path);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      auto* next = const_cast<KeyNode*>(node->find(parts[i]));
+      if (next == nullptr) {
+        SCREE_EXPECT(i + 1 == parts.size());
+        node->children.emplace_back(parts[i], std::make_unique<KeyNode>());
+        next = node->children.back().second.get();
+      }
+      node = next;
+    }
+    SCREE_EXPECT(node->key == nullptr);
+    node->key = &key;
+  }
+}
+
+const Key* KeyTable::find(std::string_view path) const {
+  const KeyNode* node = &root_;
+  for (const std::string& part : split_path(path)) {
+    node = node->find(part);
+    if (node == nullptr) return nullptr;
+  }
+  return node->key;
+}
+
+std::string rule_words(const Key& key, int dimension) {
+  switch (key.type) {
+    case KeyType::section:
+      return "must be a map of keys";
+    case KeyType::names:
+      return "must be " + entry_words(key, "map of names");
+    case KeyType::list:
+      return "must be " + entry_words(key, "list");
+    case KeyType::quantity:
+    case KeyType::integer:
+      return "must be " + number_words(key, dimension);
+    case KeyType::flag:
+      return "must be true or false";
+    case KeyType::word:
+      return fmt::format("must be one of {}", fmt::join(key.words, ", "));
+    case KeyType::name:
+      return "must be a name";
+    case KeyType::text:
+      return "must be text";
+    case KeyType::path:
+      return "must be a file";
+  }
+  return {};
+}
+
+}  // namespace scree

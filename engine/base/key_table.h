@@ -1,0 +1,102 @@
+// The accepted keys of an input file, declared once: checking, the printed reference and the JSON schema come from here.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/units.h"
+
+namespace scree {
+
+// What stands under a key.
+enum class KeyType {
+  section,   // a map of the keys below it
+  names,     // a map from names the user chooses
+  list,      // items of one kind
+  quantity,  // a number, maybe with a unit
+  integer,
+  flag,  // true or false
+  word,  // one of a few
+  name,  // refers to something the user named
+  text,
+  path,  // of a file, relative to the input file
+};
+
+// What numbers are accepted; of a list or a map of names: how many entries.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;   // low itself is refused
+  bool high_open = false;  // high itself is refused
+
+  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] std::string words() const;  // "positive", "at least 0 and below 1"; empty if everything is accepted
+};
+inline constexpr Range positive{.low = 0, .low_open = true};
+inline constexpr Range not_negative{.low = 0};
+inline constexpr Range at_least_one{.low = 1};
+
+// Another key is given (or not), by its pattern, with `*` and `[]` standing for the same names and items as in the key that has
+// the condition; with a word: it has this value.
+struct Condition {
+  std::string key;
+  std::string word = {};
+  bool absent = false;
+
+  [[nodiscard]] std::string words() const;  // "with heat", "without packing", "with heat.integrator: implicit"
+};
+
+// How many numbers a quantity or integer key holds.
+enum class Count { one, per_dimension, four };
+
+struct Key {
+  std::string path;  // pattern: materials.*.density, heat.boundaries[].body
+  KeyType type = KeyType::section;
+  std::string meaning;  // one sentence
+  Quantity quantity = quantity::number;
+  Range range = {};
+  Count count = Count::one;
+  std::vector<std::string> words = {};  // of a word
+  std::string fallback = {};            // YAML that stands for a missing key; empty: there is none
+  std::string otherwise = {};           // what happens without the key, if there is no fallback, for the reference
+  bool required = false;
+  std::string choice = {};  // of the keys beside each other with one choice at most one is given; exactly one if required
+  std::vector<Condition> only = {};  // the key has a use only if all hold
+};
+
+// A key among its neighbours. A key of type quantity may have keys below it: then either form is accepted.
+struct KeyNode {
+  const Key* key = nullptr;
+  std::vector<std::pair<std::string, std::unique_ptr<KeyNode>>> children;  // named `*` for user-chosen names, `[]` for items
+
+  [[nodiscard]] const KeyNode* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+class KeyTable {
+ public:
+  // Every key's parent must stand before it.
+  explicit KeyTable(std::vector<Key> keys);
+
+  [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
+  [[nodiscard]] const KeyNode& root() const { return root_; }
+  [[nodiscard]] const Key* find(std::string_view path) const;  // by its pattern
+
+ private:
+  std::vector<Key> keys_;
+  KeyNode root_;
+};
+
+// materials.*.density -> materials, *, density; heat.boundaries[].body -> heat, boundaries, [], body
+std::vector<std::string> split_path(std::string_view path);
+
+// What a value must be: "must be positive, W/m/K", "must be one of whole, per_element". `dimension` numbers make a vector;
+// 0 if it is not known.
+std::string rule_words(const Key& key, int dimension);
+
+}  // namespace scree

@@ -1,0 +1,159 @@
+#include "engine/base/units.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include "engine/base/check.h"
+
+namespace scree {
+
+namespace {
+
+struct FreeUnit {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+struct FreeSystem {
+  void operator()(ut_system* system) const { ut_free_system(system); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+using System = std::unique_ptr<ut_system, FreeSystem>;
+
+System read_system() {
+  ut_set_error_message_handler(ut_ignore);
+  System system{ut_read_xml(nullptr)};
+  if (!system) throw RunError("the table of units of UDUNITS-2 cannot be read (Debian package libudunits2-data)");
+  const Unit degree{ut_get_unit_by_name(system.get(), "degree")};
+  ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
+  return system;
+}
+
+// Read once, at the first unit: it takes some milliseconds.
+ut_system* units() {
+  static const System system = read_system();
+  return system.get();
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// UDUNITS also reads products with numbers ("m 3" is 3 m), origins ("K @ 3") and dates: surely mistakes here. Digits may
+// only be exponents: behind a letter, a sign, a hat, or another digit.
+bool plain_spelling(std::string_view unit) {
+  if (unit.find('@') != std::string_view::npos) return false;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    if (!is_digit(unit[i])) continue;
+    if (i == 0) return false;
+    const char before = unit[i - 1];
+    const bool exponent = std::isalnum(static_cast<unsigned char>(before)) || before == '-' || before == '+' || before == '^';
+    if (!exponent) return false;
+  }
+  return true;
+}
+
+Unit parse_unit(std::string_view spelling) {
+  if (!plain_spelling(spelling)) return nullptr;
+  return Unit{ut_parse(units(), std::string(spelling).c_str(), UT_UTF8)};
+}
+
+// UDUNITS takes an angle for a plain number; a percentage is no angle all the same.
+bool is_angle(const ut_unit* unit) {
+  std::array<char, 64> text{};
+  const int length = ut_format(unit, text.data(), text.size(), UT_DEFINITION | UT_ASCII);
+  return length > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
+}
+
+// From `unit` to the SI unit of the quantity, if they measure the same.
+Converter converter_to(const Quantity& quantity, ut_unit* unit) {
+  const Unit si = quantity.unit.empty() ? Unit{ut_get_dimensionless_unit_one(units())} : parse_unit(quantity.unit);
+  SCREE_EXPECT(si != nullptr);
+  if (!ut_are_convertible(unit, si.get()) || is_angle(unit) != is_angle(si.get())) return nullptr;
+  if (quantity.kind != Quantity::Kind::temperature_difference) return Converter{ut_get_converter(unit, si.get())};
+  // As a factor of a product a unit loses its origin: degC m to K m is what differences need, without rounding at 273.15.
+  const Unit metre{ut_get_unit_by_name(units(), "meter")};
+  const Unit from{ut_multiply(unit, metre.get())};
+  const Unit to{ut_multiply(si.get(), metre.get())};
+  return Converter{ut_get_converter(from.get(), to.get())};
+}
+
+struct Number {
+  std::optional<double> value;  // nothing if it does not fit a double
+  std::string_view rest;
+};
+
+std::optional<Number> leading_number(std::string_view text) {
+  const bool has_sign = !text.empty() && (text.front() == '+' || text.front() == '-');
+  const std::string_view digits = has_sign ? text.substr(1) : text;
+  // from_chars also reads "inf" and "nan".
+  if (digits.empty() || !(is_digit(digits.front()) || digits.front() == '.')) return std::nullopt;
+  if (text.front() == '+') text = digits;  // from_chars does not know it
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::invalid_argument) return std::nullopt;
+  Number number{value, trimmed(text.substr(static_cast<std::size_t>(end - text.data())))};
+  if (error == std::errc::result_out_of_range) number.value.reset();
+  return number;
+}
+
+// What is probably meant by a unit of another quantity.
+std::string likely_unit(std::string_view unit, const Quantity& quantity) {
+  const bool warm = quantity.kind != Quantity::Kind::scale;
+  if (warm && (unit == "C" || unit == "c" || unit == "celsius")) return "degC";
+  if (warm && (unit == "F" || unit == "f")) return "degF";
+  if (quantity.unit == "s" && unit == "m") return "min";
+  if (quantity.unit == "s" && (unit == "H" || unit == "D")) return unit == "H" ? "h" : "d";
+  if (quantity.unit == "m" && unit == "M") return "m";
+  return std::string(quantity.unit);
+}
+
+UnitProblem wrong_unit(std::string_view number, std::string_view unit, const Quantity& quantity, bool known) {
+  UnitProblem problem;
+  if (quantity.unit.empty()) {
+    problem.reason = fmt::format("{} is no unit of a plain number", unit);
+    problem.suggestion = fmt::format("Did you mean {}?", number);
+    return problem;
+  }
+  problem.reason = known ? fmt::format("{} is no unit of {}", unit, quantity.name) : fmt::format("{} is no known unit", unit);
+  problem.suggestion = fmt::format("Did you mean {} {}?", number, likely_unit(unit, quantity));
+  return problem;
+}
+
+}  // namespace
+
+std::variant<double, UnitProblem> parse_quantity(std::string_view text, const Quantity& quantity) {
+  text = trimmed(text);
+  const std::optional<Number> number = leading_number(text);
+  if (!number) {
+    return UnitProblem{quantity.unit.empty() ? "not a number" : "not a number, with or without a unit", ""};
+  }
+  if (!number->value) return UnitProblem{"too large or too small for a number in double precision", ""};
+  if (number->rest.empty()) return *number->value;
+
+  const std::string_view digits = trimmed(text.substr(0, text.size() - number->rest.size()));
+  const Unit unit = parse_unit(number->rest);
+  if (!unit) return wrong_unit(digits, number->rest, quantity, false);
+  const Converter converter = converter_to(quantity, unit.get());
+  if (!converter) return wrong_unit(digits, number->rest, quantity, true);
+
+  const double value = cv_convert_double(converter.get(), *number->value);
+  if (!std::isfinite(value)) return UnitProblem{"too large for a number in double precision", ""};
+  return value;
+}
+
+}  // namespace scree

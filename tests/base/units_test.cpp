@@ -1,0 +1,108 @@
+#include "engine/base/units.h"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+namespace scree {
+
+namespace {
+
+struct Case {
+  const char* text;
+  Quantity quantity;
+  double si;
+};
+
+double value_of(const char* text, const Quantity& quantity) {
+  const auto parsed = parse_quantity(text, quantity);
+  EXPECT_TRUE(std::holds_alternative<double>(parsed)) << text << ": " << std::get<UnitProblem>(parsed).reason;
+  return std::holds_alternative<double>(parsed) ? std::get<double>(parsed) : 0;
+}
+
+std::string reason_of(const char* text, const Quantity& quantity) {
+  const auto parsed = parse_quantity(text, quantity);
+  EXPECT_TRUE(std::holds_alternative<UnitProblem>(parsed)) << text;
+  if (std::holds_alternative<double>(parsed)) return "";
+  const UnitProblem& problem = std::get<UnitProblem>(parsed);
+  return problem.reason + (problem.suggestion.empty() ? "" : " | " + problem.suggestion);
+}
+
+namespace q = quantity;
+
+TEST(Units, ConvertToSi) {
+  const Case cases[] = {
+      {"12 h", q::time, 43200},
+      {"10 min", q::time, 600},
+      {"7 d", q::time, 604800},
+      {"5ms", q::time, 0.005},
+      {"4 cm", q::length, 0.04},
+      {"0.1 mm", q::length, 1e-4},
+      {"3 µm", q::length, 3e-6},
+      {" +2e-1 km ", q::length, 200},
+      {"373 K", q::temperature, 373},
+      {"100 degC", q::temperature, 373.15},
+      {"-40 degF", q::temperature, 233.15},
+      {"25 °C", q::temperature, 298.15},
+      {"0.1 degC", q::temperature_difference, 0.1},
+      {"0.18 degF", q::temperature_difference, 0.1},
+      {"10 mK", q::temperature_difference, 0.01},
+      {"3.1 W/m/K", q::conductivity, 3.1},
+      {"3.1 W/(m K)", q::conductivity, 3.1},
+      {"3.1 W m-1 K-1", q::conductivity, 3.1},
+      {"3.1 W/m/degC", q::conductivity, 3.1},
+      {"880 J/kg/K", q::specific_heat, 880},
+      {"0.88 kJ/(kg K)", q::specific_heat, 880},
+      {"2500 kg/m3", q::density, 2500},
+      {"2.5 g/cm3", q::density, 2500},
+      {"2.5 t/m^3", q::density, 2500},
+      {"5 kW/m2", q::heat_flux, 5000},
+      {"2 W", q::heat_flow, 2},
+      {"1 MW/m3", q::power_density, 1e6},
+      {"9.81 m/s2", q::acceleration, 9.81},
+      {"36 km/h", q::speed, 10},
+      {"45 deg", q::angle, std::numbers::pi / 4},
+      {"1 rad", q::angle, 1},
+      {"5 %", q::number, 0.05},
+  };
+  for (const Case& c : cases) EXPECT_NEAR(value_of(c.text, c.quantity), c.si, 1e-13 * std::abs(c.si)) << c.text;
+}
+
+TEST(Units, BareNumbersAreSiToTheBit) {
+  EXPECT_EQ(value_of("0.1", q::length), 0.1);
+  EXPECT_EQ(value_of("1e-3", q::time), 1e-3);
+  EXPECT_EQ(value_of("298.15", q::temperature), 298.15);
+  EXPECT_EQ(value_of(".5", q::number), 0.5);
+  EXPECT_EQ(value_of("-0.025", q::length), -0.025);
+}
+
+TEST(Units, AWrongDimensionIsRefused) {
+  EXPECT_EQ(reason_of("3 kg", q::length), "kg is no unit of length | Did you mean 3 m?");
+  EXPECT_EQ(reason_of("12 m", q::time), "m is no unit of time | Did you mean 12 min?");
+  EXPECT_EQ(reason_of("25 C", q::temperature), "C is no unit of temperature | Did you mean 25 degC?");
+  EXPECT_EQ(reason_of("3.1 W/m", q::conductivity), "W/m is no unit of conductivity | Did you mean 3.1 W/m/K?");
+  EXPECT_EQ(reason_of("5 m", q::number), "m is no unit of a plain number | Did you mean 5?");
+  EXPECT_EQ(reason_of("45 %", q::angle), "% is no unit of angle | Did you mean 45 rad?");
+  EXPECT_EQ(reason_of("45 deg", q::number), "deg is no unit of a plain number | Did you mean 45?");
+}
+
+TEST(Units, UnknownUnitsAndOddSpellingsAreRefused) {
+  EXPECT_EQ(reason_of("3 furlongz", q::length), "furlongz is no known unit | Did you mean 3 m?");
+  EXPECT_EQ(reason_of("3 m 2", q::length), "m 2 is no known unit | Did you mean 3 m?");
+  EXPECT_EQ(reason_of("3 2 m", q::length), "2 m is no known unit | Did you mean 3 m?");
+  EXPECT_EQ(reason_of("3 K @ 5", q::temperature), "K @ 5 is no known unit | Did you mean 3 K?");
+  EXPECT_EQ(reason_of("3 s since 2000", q::time), "s since 2000 is no known unit | Did you mean 3 s?");
+  EXPECT_EQ(reason_of("3 m/", q::length), "m/ is no known unit | Did you mean 3 m?");
+}
+
+TEST(Units, OnlyFiniteNumbersPass) {
+  for (const char* text : {"", "  ", "x", "inf", "-inf", "nan", ".inf", ".nan", "h", "- 3", "--3", "+-3"}) {
+    EXPECT_EQ(reason_of(text, q::number), "not a number") << text;
+  }
+  EXPECT_EQ(reason_of("1e999", q::number), "too large or too small for a number in double precision");
+  EXPECT_EQ(reason_of("1e308 km", q::length), "too large for a number in double precision");
+}
+
+}  // namespace
+
+}  // namespace scree

@@ -1,0 +1,307 @@
+// The one table. A default is the default of the struct that a key fills, so that a scene and a test say the same.
+#include "tools/scene/keys.h"
+
+#include <fmt/format.h>
+
+#include "contact/find_contacts.h"
+#include "engine/base/key_row.h"
+#include "engine/base/material.h"
+#include "engine/mesh/body_spec.h"
+#include "engine/output/probes.h"
+#include "engine/rigid/settle.h"
+#include "thermal/heat_options.h"
+
+namespace scree {
+
+namespace {
+
+using enum KeyType;
+using Keys = std::vector<Key>;
+namespace q = quantity;
+
+constexpr auto vector = Count::per_dimension;
+
+std::string with_unit(double value, std::string_view unit) {
+  return fmt::format("{} {}", value, unit);
+}
+
+// A default vector. Scenes in 2-D leave z away, and no key with such a default is for them.
+std::string as_list(const Eigen::Vector3d& value) {
+  return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z());
+}
+
+const Condition in_3d{"dimension", "3"};
+const std::vector<Condition> one_copy{{.key = "bodies.*.lattice", .absent = true},
+                                      {.key = "bodies.*.random", .absent = true},
+                                      {.key = "bodies.*.at", .absent = true}};
+
+void append(Keys& keys, Keys more) {
+  for (Key& key : more) keys.push_back(std::move(key));
+}
+
+// A rotation below `parent`.
+Keys rotation(const std::string& parent, const std::vector<Condition>& only = {}) {
+  const std::string path = parent + ".rotation";
+  return {
+      row(path, quantity, "Turns the shape about its own origin: {axis, angle}, or a quaternion [w, x, y, z].", q::number)
+          .count(Count::four)
+          .otherwise("not turned")
+          .only(only),
+      row(path + ".axis", quantity, "Axis of the rotation; in 2-D it is z.", q::number).count(vector).required().only({in_3d}),
+      row(path + ".angle", quantity, "Angle of the rotation, right-handed about the axis.", q::angle).required(),
+  };
+}
+
+// Where a region below `parent` ends.
+Keys within(const std::string& parent) {
+  return {
+      row(parent + ".within", section, "An axis-aligned box of space that holds the part meant.").otherwise("the whole body"),
+      row(parent + ".within.low", quantity, "Its corner with the least coordinates.", q::length).count(vector).required(),
+      row(parent + ".within.high", quantity, "Its corner with the largest coordinates.", q::length).count(vector).required(),
+  };
+}
+
+Keys root_keys() {
+  return {
+      row("title", text, "What the scene shows.").fallback("\"\""),
+      row("dimension", word, "Space: 2 for triangles of unit thickness, 3 for tetrahedra.").words({"2", "3"}).fallback("3"),
+      row("packing", path, "Packing file to start from, instead of settling.").choice("start"),
+  };
+}
+
+Keys material_keys() {
+  const Material by_default;
+  return {
+      row("materials", names, "What bodies are made of.").range(at_least_one).required(),
+      row("materials.*", section, "One material."),
+      row("materials.*.density", quantity, "Mass per volume.", q::density, positive).otherwise("needed to settle and for heat"),
+      row("materials.*.conductivity", quantity, "Thermal conductivity.", q::conductivity, positive)
+          .otherwise("needed for heat"),
+      row("materials.*.specific_heat", quantity, "Heat capacity per mass.", q::specific_heat, positive)
+          .otherwise("needed for heat"),
+      row("materials.*.friction", quantity, "Coulomb coefficient between two bodies of this material.", q::number, not_negative)
+          .fallback(fmt::format("{}", by_default.friction)),
+      row("materials.*.restitution", quantity, "Rebound speed over impact speed between two bodies of this material.",
+          q::number, Range{.low = 0, .high = 1})
+          .fallback(fmt::format("{}", by_default.restitution)),
+  };
+}
+
+Keys shape_keys() {
+  const std::string centre = "Where its centre is.";
+  Keys keys{
+      row("bodies.*.box", section, "A box, or a rectangle in 2-D.").required().choice("shape"),
+      row("bodies.*.box.size", quantity, "Its edge lengths.", q::length, positive).count(vector).required(),
+      row("bodies.*.box.centre", quantity, centre, q::length).count(vector).required().only(one_copy),
+  };
+  append(keys, rotation("bodies.*.box", one_copy));
+  append(keys, {
+                   row("bodies.*.sphere", section, "A sphere, or a disc in 2-D.").required().choice("shape"),
+                   row("bodies.*.sphere.diameter", quantity, "Its diameter.", q::length, positive).required(),
+                   row("bodies.*.sphere.centre", quantity, centre, q::length).count(vector).required().only(one_copy),
+                   row("bodies.*.cylinder", section, "A cylinder along z.").required().choice("shape").only({in_3d}),
+                   row("bodies.*.cylinder.diameter", quantity, "Its diameter.", q::length, positive).required(),
+                   row("bodies.*.cylinder.height", quantity, "Its length along its axis.", q::length, positive).required(),
+                   row("bodies.*.cylinder.centre", quantity, centre, q::length).count(vector).required().only(one_copy),
+               });
+  append(keys, rotation("bodies.*.cylinder", one_copy));
+  append(keys, {
+                   row("bodies.*.mesh", section, "A closed surface or a volume mesh from a file.").required().choice("shape"),
+                   row("bodies.*.mesh.file", path, "An .stl surface, or a Gmsh .msh 4 or .vtu mesh.").required(),
+                   row("bodies.*.mesh.scale", quantity, "Length of the file's unit.", q::length, positive).fallback("1 m"),
+                   row("bodies.*.mesh.position", quantity, "Where the file's origin goes.", q::length)
+                       .count(vector)
+                       .required()
+                       .only(one_copy),
+               });
+  append(keys, rotation("bodies.*.mesh", one_copy));
+  return keys;
+}
+
+Keys copy_keys() {
+  Keys keys{
+      row("bodies.*.lattice", section, "Copies of the shape on a regular lattice.").choice("arrangement"),
+      row("bodies.*.lattice.count", integer, "Copies along each axis.")
+          .range(Range{.low = 1, .high = 1000000})
+          .count(vector)
+          .required(),
+      row("bodies.*.lattice.spacing", quantity, "Distance from centre to centre along each axis.", q::length, positive)
+          .count(vector)
+          .required(),
+      row("bodies.*.lattice.centre", quantity, "Centre of the lattice.", q::length).count(vector).required(),
+  };
+  append(keys, rotation("bodies.*.lattice"));
+  append(keys, {
+                   row("bodies.*.random", section, "Copies at random places whose bounding spheres do not overlap.")
+                       .choice("arrangement"),
+                   row("bodies.*.random.count", integer, "How many.").range(Range{.low = 1, .high = 10000000}).required(),
+                   row("bodies.*.random.low", quantity, "Corner of the box that holds the copies whole.", q::length)
+                       .count(vector)
+                       .required(),
+                   row("bodies.*.random.high", quantity, "Its opposite corner.", q::length).count(vector).required(),
+                   row("bodies.*.random.seed", integer, "Another seed gives another arrangement.")
+                       .range(not_negative)
+                       .fallback(fmt::format("{}", mesh::AtRandom{}.seed)),
+                   row("bodies.*.random.rotate", flag, "Turn each copy at random, too.")
+                       .fallback(fmt::format("{}", mesh::AtRandom{}.random_rotation)),
+                   row("bodies.*.at", KeyType::list, "Copies at given places.").range(at_least_one).choice("arrangement"),
+                   row("bodies.*.at[]", section, "One copy."),
+                   row("bodies.*.at[].position", quantity,
+                       "Where the shape's origin goes: its centre, or the origin of a mesh file.", q::length)
+                       .count(vector)
+                       .required(),
+               });
+  append(keys, rotation("bodies.*.at[]"));
+  return keys;
+}
+
+Keys body_keys() {
+  Keys keys{
+      row("bodies", names, "What there is, in this order.").range(at_least_one).required(),
+      row("bodies.*", section, "One body: a shape, at one place or in many copies."),
+      row("bodies.*.material", name, "What it is made of.").required(),
+      row("bodies.*.mesh_size", quantity, "Edge length of its elements aimed at.", q::length, positive).required(),
+      row("bodies.*.blocks", word, "One block per copy of the shape, or one per element.")
+          .words({"whole", "per_element"})
+          .fallback("whole"),
+      row("bodies.*.fixed", flag, "It never moves.").fallback("false"),
+      row("bodies.*.velocity", quantity, "At the start.", q::speed)
+          .count(vector)
+          .otherwise("at rest")
+          .only({in_3d, Condition{.key = "bodies.*.fixed", .word = "true", .absent = true}}),
+  };
+  append(keys, shape_keys());
+  append(keys, copy_keys());
+  return keys;
+}
+
+Keys settle_keys() {
+  const rigid::SettleOptions by_default;
+  return {
+      row("settle", section, "The free bodies fall and come to rest; without it they stay where they are.")
+          .choice("start")
+          .only({in_3d}),
+      row("settle.gravity", quantity, "Acceleration of free fall.", q::acceleration)
+          .count(vector)
+          .fallback(as_list(by_default.gravity)),
+      row("settle.limit", quantity, "Longest simulated time.", q::time, positive).fallback(with_unit(by_default.limit, "s")),
+      row("settle.step", quantity, "Time step.", q::time, positive).fallback(with_unit(by_default.step, "s")),
+      row("settle.local_damping", quantity, "Cundall's local damping factor.", q::number,
+          Range{.low = 0, .high = 1, .high_open = true})
+          .fallback(fmt::format("{}", by_default.local_damping)),
+      row("settle.rest_speed", quantity, "Root mean square speed below which the pile may be at rest.", q::speed, positive)
+          .fallback(with_unit(by_default.rest_speed, "m/s")),
+      row("settle.rest_unbalanced_force", quantity, "Largest mean net force over mean contact force on a block at rest.",
+          q::number, positive)
+          .fallback(fmt::format("{}", by_default.rest_unbalanced_force)),
+      row("settle.rest_window", quantity, "Both must hold for this long.", q::time, positive)
+          .fallback(with_unit(by_default.rest_window, "s")),
+      row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd.", q::time, positive)
+          .fallback(with_unit(by_default.frame_interval, "s")),
+      row("settle.accept_moving", flag, "A pile that still moves at the limit is no failure.").fallback("false"),
+  };
+}
+
+Keys contact_keys() {
+  const contact::ContactOptions by_default;
+  const Condition heat{"heat"};
+  return {
+      row("contact", section, "How heat passes between blocks.").fallback("{}").only({heat}),
+      row("contact.model", word, "Semi-springs and semi-edges of Li and Feng (2016).")
+          .words({"semi_spring"})
+          .fallback("semi_spring"),
+      row("contact.indentation", quantity, "Way of a semi-spring from its vertex to the centre of its face.", q::number,
+          Range{.low = 0, .high = 1, .low_open = true, .high_open = true})
+          .fallback(fmt::format("{}", by_default.indentation)),
+      row("contact.tolerance", quantity, "Largest gap or depth that counts as touching, in edge lengths of the element.",
+          q::number, not_negative)
+          .fallback(fmt::format("{}", by_default.tolerance)),
+      row("contact.stiffness_factor", quantity, "Factor beta of a contact's conductance, beta k/dL per area.", q::number,
+          not_negative)
+          .fallback(fmt::format("{}", thermal::JointOptions{}.stiffness_factor)),
+      row("contact.form", word, "Temperatures at the contact point on both sides, or as printed: at the owner's vertex.")
+          .words({"consistent", "literal"})
+          .fallback("consistent"),
+  };
+}
+
+Keys boundary_keys() {
+  Keys keys{
+      row("heat.boundaries", KeyType::list, "What happens at the surface of bodies; elsewhere it is insulated.").fallback("[]"),
+      row("heat.boundaries[]", section, "One boundary."),
+      row("heat.boundaries[].body", name, "The body it is on.").required(),
+      row("heat.boundaries[].temperature", quantity, "Held at every node of the part, inner ones too.", q::temperature,
+          not_negative)
+          .required()
+          .choice("condition"),
+      row("heat.boundaries[].flux", quantity, "Into the body, through every face in the part.", q::heat_flux)
+          .required()
+          .choice("condition"),
+      row("heat.boundaries[].flow", quantity, "Into the body in all, spread over the faces in the part.", q::heat_flow)
+          .required()
+          .choice("condition"),
+      row("heat.boundaries[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
+  };
+  append(keys, within("heat.boundaries[]"));
+  append(keys, {
+                   row("heat.sources", KeyType::list, "Heat set free inside bodies.").fallback("[]"),
+                   row("heat.sources[]", section, "One source."),
+                   row("heat.sources[].body", name, "The body it is in.").required(),
+                   row("heat.sources[].power", quantity, "Per volume.", q::power_density).required(),
+                   row("heat.sources[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
+               });
+  append(keys, within("heat.sources[]"));
+  return keys;
+}
+
+Keys heat_keys() {
+  const thermal::TimeOptions by_default;
+  Keys keys{
+      row("heat", section, "Heat is conducted in the blocks and between them, once they lie."),
+      row("heat.initial", quantity, "Temperature at the start, of all bodies or of each by its name.", q::temperature,
+          not_negative)
+          .required(),
+      row("heat.initial.*", quantity, "Of this body.", q::temperature, not_negative),
+  };
+  append(keys, boundary_keys());
+  append(keys, {
+                   row("heat.until", quantity, "End of the simulated time.", q::time, positive).required(),
+                   row("heat.tolerance", quantity, "Largest accepted error of a temperature from the steps in time.",
+                       q::temperature_difference, positive)
+                       .fallback(with_unit(by_default.tolerance, "K")),
+                   row("heat.integrator", word, "Steps in time.").words({"implicit", "explicit_euler"}).fallback("implicit"),
+                   row("heat.step", quantity, "Time step.", q::time, positive)
+                       .otherwise("largest stable one")
+                       .only({Condition{"heat.integrator", "explicit_euler"}}),
+               });
+  return keys;
+}
+
+Keys output_keys() {
+  return {
+      row("output", section, "What a run writes of the temperatures.").required().only({Condition{"heat"}}),
+      row("output.every", quantity, "Time between the frames of heat.pvd and rows of probes.csv.", q::time, positive)
+          .required(),
+      row("output.probes", names, "Points whose temperature is followed.").fallback("{}"),
+      row("output.probes.*", quantity, "One point, as a list or with its reach.", q::length).count(vector),
+      row("output.probes.*.point", quantity, "Where it is.", q::length).count(vector).required(),
+      row("output.probes.*.reach", quantity, "How far it may be moved to lie in a block.", q::length, not_negative)
+          .fallback(with_unit(output::ProbeSpec{}.reach, "m")),
+  };
+}
+
+KeyTable make_table() {
+  Keys keys = root_keys();
+  for (auto& part : {material_keys(), body_keys(), settle_keys(), contact_keys(), heat_keys(), output_keys()})
+    append(keys, part);
+  return KeyTable(std::move(keys));
+}
+
+}  // namespace
+
+const KeyTable& scene_keys() {
+  static const KeyTable table = make_table();
+  return table;
+}
+
+}  // namespace scree

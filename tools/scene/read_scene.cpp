@@ -1,0 +1,84 @@
+#include "tools/scene/read_scene.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "tools/scene/keys.h"
+#include "tools/scene/sections.h"
+
+namespace scree {
+
+namespace {
+
+InputValue read_with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                               Problems& problems) {
+  InputValue root = read_yaml(file);
+  for (const std::string& assignment : overrides) {
+    try {
+      apply_override(root, assignment);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  return root;
+}
+
+// The length of vectors has to be known before anything is checked.
+int dimension_of(const InputValue& root) {
+  const InputValue* dimension = root.find("dimension");
+  return dimension != nullptr && dimension->text == "2" ? 2 : 3;
+}
+
+// Paths in a file are relative to it, those of an override (which stands at no line) to the current directory.
+void make_paths_absolute(Checked& checked, const std::filesystem::path& folder) {
+  if (checked.key != nullptr && checked.key->type == KeyType::path && checked.sound) {
+    const std::filesystem::path base = checked.where.line == 0 ? std::filesystem::current_path() : folder;
+    checked.text = (base / checked.text).lexically_normal().string();
+  }
+  for (CheckedEntry& entry : checked.entries) make_paths_absolute(entry.value, folder);
+  for (Checked& item : checked.items) make_paths_absolute(item, folder);
+}
+
+[[noreturn]] void refuse(Problems problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+  });
+  throw InputError(std::move(problems));
+}
+
+void check_packing(const Checked& packing, Problems& problems) {
+  std::error_code ignored;
+  if (packing.sound && !std::filesystem::is_regular_file(packing.text, ignored)) {
+    problems.push_back(packing.problem(packing.text, "must be a file that exists"));
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Problems problems;
+  const InputValue root = read_with_overrides(file, overrides, problems);
+  Scene scene;
+  scene.file = file;
+  scene.dimension = dimension_of(root);
+  Checked checked = check_input(root, scene_keys(), scene.dimension, problems);
+  make_paths_absolute(checked, std::filesystem::absolute(file).parent_path());
+
+  scene.title = checked.at("title").text;
+  scene.materials = read_materials(checked.at("materials"));
+  scene.bodies = read_bodies(checked, scene.dimension, problems);
+  if (const Checked* settle = checked.find("settle")) scene.settle = read_settle(*settle, problems);
+  if (const Checked* packing = checked.find("packing")) {
+    check_packing(*packing, problems);
+    scene.packing = packing->text;
+  }
+  if (const Checked* contact = checked.find("contact")) scene.contact = read_contact(*contact);
+  if (checked.find("heat") != nullptr) scene.heat = read_heat(checked, problems);
+  scene.probes = read_probes(checked.at("output"));
+  check_needs(scene, checked, problems);
+  if (!problems.empty()) refuse(std::move(problems));
+  scene.effective = to_yaml(checked);
+  return scene;
+}
+
+}  // namespace scree

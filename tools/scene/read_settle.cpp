@@ -1,0 +1,26 @@
+#include "tools/scene/sections.h"
+
+namespace scree {
+
+SettleStage read_settle(const Checked& settle, Problems& problems) {
+  SettleStage stage;
+  rigid::SettleOptions& options = stage.options;
+  options.gravity = settle.at("gravity").vector();
+  options.limit = settle.at("limit").number();
+  options.step = settle.at("step").number();
+  options.local_damping = settle.at("local_damping").number();
+  options.rest_speed = settle.at("rest_speed").number();
+  options.rest_unbalanced_force = settle.at("rest_unbalanced_force").number();
+  options.rest_window = settle.at("rest_window").number();
+  options.frame_interval = settle.at("frame_interval").number();
+  stage.accept_moving = settle.at("accept_moving").flag();
+
+  const Checked& gravity = settle.at("gravity");
+  if (gravity.sound && options.gravity.norm() == 0) {
+    problems.push_back(
+        gravity.problem("zero", "nothing falls without it", "Leave settle out to keep the bodies where they are"));
+  }
+  return stage;
+}
+
+}  // namespace scree

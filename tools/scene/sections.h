@@ -1,0 +1,39 @@
+// The sections of a scene, one function each, from checked input to the structs of the stages. Each appends what is wrong with
+// its own values; values that are not sound come out as zeros, and the scene is thrown away.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/checked_input.h"
+#include "tools/scene/scene.h"
+
+namespace scree {
+
+using Problems = std::vector<Problem>;
+
+Table<MaterialId, Material> read_materials(const Checked& materials);
+std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Problems& problems);
+SettleStage read_settle(const Checked& settle, Problems& problems);
+contact::ContactOptions read_contact(const Checked& contact);
+thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
+std::vector<output::ProbeSpec> read_probes(const Checked& section);
+
+// What one section needs of another: a density to settle, a conductivity for heat, a temperature for every body.
+void check_needs(const Scene& scene, const Checked& checked, Problems& problems);
+
+// How a body is turned; not at all without a rotation.
+Eigen::Quaterniond read_rotation(const Checked* rotation, int dimension, Problems& problems);
+
+// The names of a map, in its order.
+std::vector<std::string> names_of(const Checked& map);
+
+// The position of what `reference` names among `names`; a problem, and an invalid id, if there is none of that name.
+template <class IdType>
+IdType resolve(const Checked& reference, const std::vector<std::string>& names, const std::string& what, Problems& problems);
+
+// A corner below the opposite one in every direction of space.
+void check_corners(const Checked& region, int dimension, Problems& problems);
+
+}  // namespace scree
