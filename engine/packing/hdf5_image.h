@@ -1,0 +1,38 @@
+// HDF5 files as strings of bytes: written in memory, so that a full disk meets plain writing and not HDF5's own clean-up,
+// and without times, so that equal contents give equal files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <H5Cpp.h>
+
+namespace scree::packing {
+
+class Hdf5Image {
+ public:
+  Hdf5Image();
+
+  void put_attribute(const std::string& name, const std::string& text);
+  void put_attribute(const std::string& name, std::int64_t number);
+  // A table with rows of `width` entries.
+  void put(const std::string& name, const std::vector<double>& values, std::size_t width = 1);
+  void put(const std::string& name, const std::vector<std::int64_t>& values, std::size_t width = 1);
+  void put(const std::string& name, const std::vector<std::string>& values);
+
+  // The file's bytes; ends the image.
+  [[nodiscard]] std::string bytes();
+
+ private:
+  H5::H5File file_;
+};
+
+// Reading throws H5::Exception if an entry is missing or of another type.
+std::string text_attribute(const H5::H5File& file, const std::string& name);
+std::int64_t number_attribute(const H5::H5File& file, const std::string& name);
+std::vector<double> doubles(const H5::H5File& file, const std::string& name);
+std::vector<std::int64_t> integers(const H5::H5File& file, const std::string& name);
+std::vector<std::string> texts(const H5::H5File& file, const std::string& name);
+
+}  // namespace scree::packing

@@ -1,0 +1,210 @@
+// A packing's file: every table as a data set, what describes the file as attributes, and a digest of all of it, since HDF5
+// itself would read a flipped bit back without a word.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+#include "engine/base/hash.h"
+#include "engine/packing/hdf5_image.h"
+#include "engine/packing/packing.h"
+
+namespace scree::packing {
+
+namespace {
+
+constexpr const char* format_name = "scree packing";
+constexpr std::int64_t format_version = 1;
+
+// The numbers of a report, in the order of the file.
+constexpr std::array report_numbers{
+    &SettleReport::simulated_time,   &SettleReport::rms_speed, &SettleReport::max_speed,       &SettleReport::unbalanced_force,
+    &SettleReport::max_displacement, &SettleReport::window,    &SettleReport::max_penetration, &SettleReport::mean_penetration,
+    &SettleReport::mean_edge,        &SettleReport::top};
+
+// A packing as plain lists.
+struct Lists {
+  std::vector<double> nodes, velocities, poses, report;         // rows of dim, 3, 7 (translation; rotation x y z w), 1
+  std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 5, 2, 1
+  std::vector<std::string> texts;                               // the bodies' names, then the criterion, if any
+};
+
+template <int dim>
+Lists pack(const Packing<dim>& packing) {
+  Lists lists;
+  for (const auto& node : packing.mesh.nodes) lists.nodes.insert(lists.nodes.end(), node.begin(), node.end());
+  for (const auto& element : packing.mesh.elements) {
+    for (const NodeId node : element) lists.elements.push_back(node.value());
+  }
+  for (const mesh::Block& block : packing.mesh.blocks) {
+    for (const std::size_t entry :
+         {block.body.index(), block.nodes.first(), block.nodes.last(), block.elements.first(), block.elements.last()}) {
+      lists.blocks.push_back(static_cast<std::int64_t>(entry));
+    }
+  }
+  for (const mesh::Body& body : packing.mesh.bodies) {
+    lists.texts.push_back(body.name);
+    lists.bodies.insert(lists.bodies.end(), {body.material.value(), body.fixed ? 1 : 0});
+    lists.velocities.insert(lists.velocities.end(), body.velocity.begin(), body.velocity.end());
+  }
+  for (const Pose& pose : packing.poses) {
+    lists.poses.insert(lists.poses.end(), pose.translation.begin(), pose.translation.end());
+    lists.poses.insert(lists.poses.end(), pose.rotation.coeffs().begin(), pose.rotation.coeffs().end());
+  }
+  if (packing.settled) {
+    lists.texts.push_back(packing.settled->criterion);
+    for (const auto number : report_numbers) lists.report.push_back((*packing.settled).*number);
+    lists.outcome.push_back(packing.settled->at_rest ? 1 : 0);
+    for (const BlockId block : packing.settled->lost_blocks) lists.outcome.push_back(block.value());
+  }
+  return lists;
+}
+
+template <int dim>
+mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
+  mesh::BlockMesh<dim> mesh;
+  const auto at = [](const std::vector<std::int64_t>& list, std::size_t i) { return static_cast<std::size_t>(list.at(i)); };
+  for (std::size_t i = 0; i < lists.nodes.size(); i += dim) mesh.nodes.push_back(Point<dim>(&lists.nodes[i]));
+  for (std::size_t i = 0; i < lists.elements.size(); i += dim + 1) {
+    typename mesh::BlockMesh<dim>::Element element;
+    for (std::size_t corner = 0; corner <= dim; ++corner) element[corner] = NodeId{at(lists.elements, i + corner)};
+    mesh.elements.push_back(element);
+  }
+  for (std::size_t i = 0; i < lists.blocks.size(); i += 5) {
+    mesh.blocks.push_back({BodyId{at(lists.blocks, i)},
+                           {at(lists.blocks, i + 1), at(lists.blocks, i + 2)},
+                           {at(lists.blocks, i + 3), at(lists.blocks, i + 4)}});
+  }
+  for (std::size_t b = 0; 2 * b < lists.bodies.size(); ++b) {
+    const std::int64_t material = lists.bodies[2 * b];
+    mesh.bodies.push_back({lists.texts.at(b), material < 0 ? MaterialId{} : MaterialId{at(lists.bodies, 2 * b)},
+                           lists.bodies.at(2 * b + 1) != 0, Eigen::Vector3d(&lists.velocities.at(3 * b))});
+  }
+  return mesh;
+}
+
+SettleReport unpack_report(const Lists& lists) {
+  SettleReport report;
+  for (std::size_t i = 0; i < report_numbers.size(); ++i) report.*report_numbers[i] = lists.report.at(i);
+  report.criterion = lists.texts.back();
+  report.at_rest = lists.outcome.at(0) != 0;
+  for (std::size_t i = 1; i < lists.outcome.size(); ++i) {
+    report.lost_blocks.push_back(BlockId{static_cast<std::size_t>(lists.outcome[i])});
+  }
+  return report;
+}
+
+template <int dim>
+Packing<dim> unpack(const Lists& lists, const std::string& key) {
+  Packing<dim> packing{unpack_mesh<dim>(lists), {}, std::nullopt, key};
+  for (std::size_t i = 0; i + 7 <= lists.poses.size(); i += 7) {
+    const double* pose = &lists.poses[i];
+    packing.poses.push_back({Eigen::Vector3d(pose), Eigen::Quaterniond(pose + 3)});
+  }
+  if (!lists.outcome.empty()) packing.settled = unpack_report(lists);
+  return packing;
+}
+
+std::string digest(const std::string& key, const Lists& lists) {
+  Hasher hasher;
+  hasher.add(key);
+  const auto add = [&hasher](const auto& list) {
+    hasher.add(list.size()).add_bytes(list.data(), list.size() * sizeof list[0]);
+  };
+  for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report}) add(*list);
+  for (const auto* list : {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome}) add(*list);
+  for (const std::string& text : lists.texts) hasher.add(text);
+  return hasher.hex();
+}
+
+Lists read_lists(const H5::H5File& in) {
+  return {doubles(in, "nodes"),   doubles(in, "velocities"), doubles(in, "poses"),
+          doubles(in, "report"),  integers(in, "elements"),  integers(in, "blocks"),
+          integers(in, "bodies"), integers(in, "outcome"),   texts(in, "texts")};
+}
+
+InputError refusal(const std::filesystem::path& file, const std::string& value, const std::string& rule,
+                   const std::string& suggestion) {
+  Problem problem;
+  problem.where.file = file.string();
+  problem.key = "packing";
+  problem.value = value;
+  problem.rule = rule;
+  problem.suggestion = suggestion;
+  return InputError(problem);
+}
+
+// Who wrote it, for which dimension: reason enough to refuse it before anything else is read.
+void check_kind(const H5::H5File& in, const std::filesystem::path& file, int dimension) {
+  if (!in.attrExists("format") || text_attribute(in, "format") != format_name) {
+    throw refusal(file, "another kind of HDF5 file", "must be a packing", "Give the packing.h5 of a run");
+  }
+  if (const std::int64_t version = number_attribute(in, "version"); version != format_version) {
+    throw refusal(file, fmt::format("of format version {}", version),
+                  fmt::format("this program reads version {}", format_version), "Settle the scene again");
+  }
+  if (const std::int64_t found = number_attribute(in, "dimension"); found != dimension) {
+    throw refusal(file, fmt::format("in {}-D", found), fmt::format("this scene is in {}-D", dimension),
+                  "Give a packing of a scene with the same dimension");
+  }
+}
+
+}  // namespace
+
+template <int dim>
+void write(const Packing<dim>& packing, const std::filesystem::path& file) {
+  const Lists lists = pack(packing);
+  Hdf5Image image;
+  image.put_attribute("format", format_name);
+  image.put_attribute("version", format_version);
+  image.put_attribute("dimension", dim);
+  image.put_attribute("key", packing.key);
+  image.put_attribute("digest", digest(packing.key, lists));
+  image.put("nodes", lists.nodes, dim);
+  image.put("elements", lists.elements, dim + 1);
+  image.put("blocks", lists.blocks, 5);
+  image.put("bodies", lists.bodies, 2);
+  image.put("velocities", lists.velocities, 3);
+  image.put("poses", lists.poses, 7);
+  image.put("report", lists.report);
+  image.put("outcome", lists.outcome);
+  image.put("texts", lists.texts);
+  write_text(file, image.bytes());
+}
+
+template <int dim>
+Packing<dim> read(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    throw refusal(file, "", "no such file", "Check its path, or settle the scene again");
+  H5::Exception::dontPrint();
+  try {
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    check_kind(in, file, dim);
+    const std::string key = text_attribute(in, "key");
+    const Lists lists = read_lists(in);
+    if (digest(key, lists) == text_attribute(in, "digest")) return unpack<dim>(lists, key);
+  } catch (const H5::Exception&) {
+    // said below, in words that help
+  }
+  throw refusal(file, "damaged", "must be a whole packing", "Delete it and settle the scene again");
+}
+
+std::optional<std::string> stored_key(const std::filesystem::path& file) {
+  H5::Exception::dontPrint();
+  try {
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    if (text_attribute(in, "format") != format_name || number_attribute(in, "version") != format_version) return std::nullopt;
+    return text_attribute(in, "key");
+  } catch (const H5::Exception&) {
+    return std::nullopt;
+  }
+}
+
+template void write<2>(const Packing<2>&, const std::filesystem::path&);
+template void write<3>(const Packing<3>&, const std::filesystem::path&);
+template Packing<2> read<2>(const std::filesystem::path&);
+template Packing<3> read<3>(const std::filesystem::path&);
+
+}  // namespace scree::packing

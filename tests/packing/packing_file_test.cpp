@@ -1,0 +1,172 @@
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "engine/base/check.h"
+#include "engine/packing/packing.h"
+
+namespace scree::packing {
+namespace {
+
+using testing::HasSubstr;
+
+// A directory of the test's own, gone afterwards.
+class PackingFile : public testing::Test {
+ protected:
+  PackingFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "scree-packing-XXXXXX").string();
+    directory_ = ::mkdtemp(name.data());
+  }
+  ~PackingFile() override { std::filesystem::remove_all(directory_); }
+
+  [[nodiscard]] std::filesystem::path file() const { return directory_ / "packing.h5"; }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+// Numbers that a detour over text or float would spoil.
+template <int dim>
+Packing<dim> awkward_packing() {
+  Packing<dim> packing;
+  packing.key = "0123456789abcdef";
+  packing.mesh.bodies.push_back({"plate", MaterialId{1}, true, {0, 0, 0}});
+  packing.mesh.bodies.push_back({"a stone, with more", MaterialId{}, false, {0.1, -1.0 / 3, 5e-324}});
+  for (std::size_t block = 0; block < 2; ++block) {
+    typename mesh::BlockMesh<dim>::Element element;
+    for (std::size_t corner = 0; corner <= dim; ++corner) {
+      const double value = 0.1 * static_cast<double>(corner + 1) / 3 + static_cast<double>(block);
+      element[corner] = packing.mesh.nodes.push_back(Point<dim>::Constant(value));
+    }
+    packing.mesh.elements.push_back(element);
+    const std::size_t nodes = dim + 1;
+    packing.mesh.blocks.push_back({BodyId{block}, {nodes * block, nodes * (block + 1)}, {block, block + 1}});
+    packing.poses.push_back({{1.0 / 3, -0.0, 1e300}, Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4).normalized()});
+  }
+  return packing;
+}
+
+template <int dim>
+void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
+  EXPECT_EQ(a.key, b.key);
+  EXPECT_EQ(a.mesh.nodes, b.mesh.nodes);
+  EXPECT_EQ(a.mesh.elements, b.mesh.elements);
+  ASSERT_EQ(a.mesh.blocks.size(), b.mesh.blocks.size());
+  for (const BlockId block : a.mesh.blocks.ids()) {
+    EXPECT_EQ(a.mesh.blocks[block].body, b.mesh.blocks[block].body);
+    EXPECT_EQ(a.mesh.blocks[block].nodes, b.mesh.blocks[block].nodes);
+    EXPECT_EQ(a.mesh.blocks[block].elements, b.mesh.blocks[block].elements);
+    EXPECT_EQ(a.poses[block].translation, b.poses[block].translation);
+    EXPECT_EQ(a.poses[block].rotation.coeffs(), b.poses[block].rotation.coeffs());
+  }
+  ASSERT_EQ(a.mesh.bodies.size(), b.mesh.bodies.size());
+  for (const BodyId body : a.mesh.bodies.ids()) {
+    EXPECT_EQ(a.mesh.bodies[body].name, b.mesh.bodies[body].name);
+    EXPECT_EQ(a.mesh.bodies[body].material, b.mesh.bodies[body].material);
+    EXPECT_EQ(a.mesh.bodies[body].fixed, b.mesh.bodies[body].fixed);
+    EXPECT_EQ(a.mesh.bodies[body].velocity, b.mesh.bodies[body].velocity);
+  }
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+template <int dim>
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read<dim>(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(PackingFile, APackingComesBackToTheBit) {
+  const auto in_space = awkward_packing<3>();
+  write(in_space, file());
+  expect_same(in_space, read<3>(file()));
+  const auto in_plane = awkward_packing<2>();
+  write(in_plane, file());
+  expect_same(in_plane, read<2>(file()));
+  EXPECT_FALSE(read<2>(file()).settled);
+}
+
+TEST_F(PackingFile, AReportComesBackToTheBit) {
+  auto packing = awkward_packing<3>();
+  const double tiny = std::numeric_limits<double>::min();
+  packing.settled =
+      SettleReport{true, "slow and balanced", 1.0 / 3, 0.1, 0.2, 0.3, 0.4, 0.5, tiny, 0.6, 0.05, 0.46, {BlockId{1}}};
+  write(packing, file());
+  const auto back = read<3>(file());
+  ASSERT_TRUE(back.settled);
+  const SettleReport &a = *packing.settled, &b = *back.settled;
+  EXPECT_EQ(a.at_rest, b.at_rest);
+  EXPECT_EQ(a.criterion, b.criterion);
+  EXPECT_EQ(a.simulated_time, b.simulated_time);
+  EXPECT_EQ(a.rms_speed, b.rms_speed);
+  EXPECT_EQ(a.max_speed, b.max_speed);
+  EXPECT_EQ(a.unbalanced_force, b.unbalanced_force);
+  EXPECT_EQ(a.max_displacement, b.max_displacement);
+  EXPECT_EQ(a.window, b.window);
+  EXPECT_EQ(a.max_penetration, b.max_penetration);
+  EXPECT_EQ(a.mean_penetration, b.mean_penetration);
+  EXPECT_EQ(a.mean_edge, b.mean_edge);
+  EXPECT_EQ(a.top, b.top);
+  EXPECT_EQ(a.lost_blocks, b.lost_blocks);
+}
+
+TEST_F(PackingFile, EqualPackingsGiveEqualFiles) {
+  write(awkward_packing<3>(), file());
+  const std::string first = bytes_of(file());
+  write(awkward_packing<3>(), file());
+  EXPECT_EQ(bytes_of(file()), first);
+}
+
+TEST_F(PackingFile, TheKeyIsReadAlone) {
+  EXPECT_EQ(stored_key(file()), std::nullopt);
+  write(awkward_packing<3>(), file());
+  EXPECT_EQ(stored_key(file()), "0123456789abcdef");
+  std::ofstream(file()) << "not a packing";
+  EXPECT_EQ(stored_key(file()), std::nullopt);
+}
+
+TEST_F(PackingFile, AMissingFileIsNamed) {
+  EXPECT_EQ(refusal<3>(file()), file().string() + ": packing (no such file). Check its path, or settle the scene again");
+}
+
+TEST_F(PackingFile, AnotherDimensionIsRefused) {
+  write(awkward_packing<2>(), file());
+  EXPECT_THAT(refusal<3>(file()), HasSubstr("packing is in 2-D (this scene is in 3-D)"));
+}
+
+TEST_F(PackingFile, ATruncatedFileIsRefusedWhereverItEnds) {
+  write(awkward_packing<3>(), file());
+  const std::string whole = bytes_of(file());
+  for (std::size_t length = 0; length < whole.size(); length += 97) {
+    std::ofstream(file(), std::ios::binary) << whole.substr(0, length);
+    EXPECT_THAT(refusal<3>(file()), HasSubstr("packing is damaged (must be a whole packing)")) << length;
+  }
+}
+
+TEST_F(PackingFile, AFlippedBitInANumberIsNoticed) {
+  write(awkward_packing<3>(), file());
+  std::string bytes = bytes_of(file());
+  const double seen = 0.1 * 2 / 3;
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&seen), sizeof seen));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  std::ofstream(file(), std::ios::binary) << bytes;
+  EXPECT_THAT(refusal<3>(file()), HasSubstr("packing is damaged"));
+}
+
+TEST_F(PackingFile, AFileThatCannotBeWrittenIsARunError) {
+  EXPECT_THROW(write(awkward_packing<3>(), file() / "below"), RunError);
+}
+
+}  // namespace
+}  // namespace scree::packing
