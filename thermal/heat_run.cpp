@@ -15,7 +15,7 @@ namespace {
 
 // Step control. A step may add this share of the room left below the tolerance, so that the sum stays below it however many
 // steps there are: modes that still change forget old errors as they decay, which gives room back (README, "Time").
-constexpr double share_of_room = 0.15;
+constexpr double share_of_room = 0.4;
 // Room never counts as less than this share of the tolerance: errors that do not decay must not stop the run. It then ends
 // above its tolerance and says so.
 constexpr double least_room = 0.05;
