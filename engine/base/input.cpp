@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -108,15 +108,11 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
 }
 
 InputValue read_yaml(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) refuse({file.string(), 0, 0}, "not readable", "a folder", "");
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  const bool readable = stream && !std::filesystem::is_directory(file) && text << stream.rdbuf();
-  const bool blank = readable && text.str().empty();
-  if (!readable && !blank) {
-    const std::string reason = std::filesystem::is_directory(file) ? "a folder" : std::strerror(errno);
-    refuse({file.string(), 0, 0}, "not readable", reason, "");
-  }
-  return parse_yaml(text.str(), file.string());
+  if (!stream) refuse({file.string(), 0, 0}, "not readable", std::strerror(errno), "");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  return parse_yaml(text, file.string());
 }
 
 std::string describe(const InputValue& value) {

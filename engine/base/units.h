@@ -24,6 +24,7 @@ inline constexpr Quantity number{"plain number", ""};
 inline constexpr Quantity angle{"angle", "rad"};
 inline constexpr Quantity length{"length", "m"};
 inline constexpr Quantity time{"time", "s"};
+inline constexpr Quantity rate{"rate", "s-1"};
 inline constexpr Quantity speed{"speed", "m/s"};
 inline constexpr Quantity acceleration{"acceleration", "m/s2"};
 inline constexpr Quantity density{"density", "kg/m3"};

@@ -189,13 +189,22 @@ Keys settle_keys() {
       row("settle.local_damping", quantity, "Cundall's local damping factor.", q::number,
           Range{.low = 0, .high = 1, .high_open = true})
           .fallback(fmt::format("{}", by_default.local_damping)),
+      row("settle.viscous_damping", quantity, "Drag per mass while the blocks fall; they come to rest without it.", q::rate,
+          not_negative)
+          .fallback(with_unit(by_default.viscous_damping, "s-1")),
       row("settle.rest_speed", quantity, "Root mean square speed below which the pile may be at rest.", q::speed, positive)
           .fallback(with_unit(by_default.rest_speed, "m/s")),
       row("settle.rest_unbalanced_force", quantity, "Largest mean net force over mean contact force on a block at rest.",
           q::number, positive)
           .fallback(fmt::format("{}", by_default.rest_unbalanced_force)),
-      row("settle.rest_window", quantity, "Both must hold for this long.", q::time, positive)
+      row("settle.rest_displacement", quantity, "Largest way of a block in a window, over the mean edge, at rest.", q::number,
+          positive)
+          .fallback(fmt::format("{}", by_default.rest_displacement)),
+      row("settle.rest_window", quantity, "All three must hold for this long.", q::time, positive)
           .fallback(with_unit(by_default.rest_window, "s")),
+      row("settle.iterations", integer, "Iterations of the contact solver in each step.")
+          .range(Range{.low = 1, .high = 10000})
+          .fallback(fmt::format("{}", by_default.iterations)),
       row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd.", q::time, positive)
           .fallback(with_unit(by_default.frame_interval, "s")),
       row("settle.accept_moving", flag, "A pile that still moves at the limit is no failure.").fallback("false"),

@@ -55,7 +55,17 @@ thermal::Boundary read_boundary(const Checked& part, Names& names, int dimension
     boundary.condition = thermal::FixedTemperature{part.at("temperature").number()};
   }
   boundary.name = ledger_name(part, kind, names, problems);
+  boundary.where = part.where;
   return boundary;
+}
+
+thermal::Source read_source(const Checked& part, Names& names, int dimension, Problems& problems) {
+  thermal::Source source;
+  source.region = read_region(part, names, dimension, problems);
+  source.power = part.at("power").number();
+  source.name = ledger_name(part, "source", names, problems);
+  source.where = part.where;
+  return source;
 }
 
 // One temperature for all bodies, or one for each.
@@ -96,7 +106,10 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
 }  // namespace
 
 contact::ContactOptions read_contact(const Checked& contact) {
-  return {contact.at("indentation").number(), contact.at("tolerance").number()};
+  contact::ContactOptions options;
+  options.indentation = contact.at("indentation").number();
+  options.tolerance = contact.at("tolerance").number();
+  return options;
 }
 
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
@@ -111,8 +124,7 @@ thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
     options.boundaries.push_back(read_boundary(part, names, dimension, problems));
   }
   for (const Checked& part : heat.at("sources").items) {
-    const thermal::Region region = read_region(part, names, dimension, problems);
-    options.sources.push_back({region, part.at("power").number(), ledger_name(part, "source", names, problems)});
+    options.sources.push_back(read_source(part, names, dimension, problems));
   }
   options.joint.stiffness_factor = contact.at("stiffness_factor").number();
   const bool literal = contact.at("form").text == "literal";

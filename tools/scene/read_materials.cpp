@@ -13,12 +13,14 @@ std::optional<double> optional_number(const Checked* value) {
 Table<MaterialId, Material> read_materials(const Checked& materials) {
   Table<MaterialId, Material> result;
   for (const CheckedEntry& entry : materials.entries) {
-    result.push_back(Material{.name = entry.name,
-                              .density = optional_number(entry.value.find("density")),
-                              .conductivity = optional_number(entry.value.find("conductivity")),
-                              .specific_heat = optional_number(entry.value.find("specific_heat")),
-                              .friction = entry.value.at("friction").number(),
-                              .restitution = entry.value.at("restitution").number()});
+    Material material;
+    material.name = entry.name;
+    material.density = optional_number(entry.value.find("density"));
+    material.conductivity = optional_number(entry.value.find("conductivity"));
+    material.specific_heat = optional_number(entry.value.find("specific_heat"));
+    material.friction = entry.value.at("friction").number();
+    material.restitution = entry.value.at("restitution").number();
+    result.push_back(std::move(material));
   }
   return result;
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tools/scene/sections.h"
 
 namespace scree {
@@ -9,12 +11,19 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.limit = settle.at("limit").number();
   options.step = settle.at("step").number();
   options.local_damping = settle.at("local_damping").number();
+  options.viscous_damping = settle.at("viscous_damping").number();
   options.rest_speed = settle.at("rest_speed").number();
   options.rest_unbalanced_force = settle.at("rest_unbalanced_force").number();
+  options.rest_displacement = settle.at("rest_displacement").number();
   options.rest_window = settle.at("rest_window").number();
+  options.iterations = settle.at("iterations").integer();
   options.frame_interval = settle.at("frame_interval").number();
   stage.accept_moving = settle.at("accept_moving").flag();
 
+  const Checked& drag = settle.at("viscous_damping");
+  if (drag.sound && settle.at("step").sound && options.viscous_damping * options.step > 1) {
+    problems.push_back(drag.problem(drag.text, fmt::format("must be at most {:g} 1/s, one over the step", 1 / options.step)));
+  }
   const Checked& gravity = settle.at("gravity");
   if (gravity.sound && options.gravity.norm() == 0) {
     problems.push_back(

@@ -1,0 +1,224 @@
+#include "tools/scene/keys.h"
+
+#include <fstream>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/key_reference.h"
+#include "tests/scene/scene_text.h"
+
+namespace scree {
+
+namespace {
+
+using Json = nlohmann::json;
+using test::scene_of;
+using test::values_of;
+using test::whole_scene;
+
+// For each key that holds a value: what makes it present, and an assignment that changes it.
+struct Change {
+  std::string key;
+  std::vector<std::string> before;
+  std::string after;
+};
+
+const std::string shape_of_block = "bodies.block.sphere=null";
+const std::string box = "bodies.block.box={size: [1, 1, 1], centre: [0, 0, 0], rotation: {axis: [0, 0, 1], angle: 1}}";
+const std::string cylinder =
+    "bodies.block.cylinder={diameter: 1, height: 1, centre: [0, 0, 0], rotation: {axis: [0, 0, 1], angle: 1}}";
+const std::string file =
+    "bodies.block.mesh={file: " SCREE_SOURCE_DIR "/LICENSE, position: [0, 0, 0], rotation: {axis: [0, 0, 1], angle: 1}}";
+const std::string lattice =
+    "bodies.block.lattice={count: [1, 2, 3], spacing: [1, 1, 1], centre: [0, 0, 0], rotation: [1, 0, 0, 0]}";
+const std::string random_copies = "bodies.block.random={count: 1, low: [0, 0, 0], high: [1, 1, 1]}";
+const std::string at = "bodies.block.at=[{position: [0, 0, 0], rotation: [1, 0, 0, 0]}]";
+const std::string no_centre = "bodies.block.sphere.centre=null";
+const std::string turned = "{axis: [1, 0, 0], angle: 1}";
+
+std::vector<Change> shape_changes() {
+  const std::string b = "bodies.block.";
+  const std::vector<std::string> with_box{shape_of_block, box}, with_cylinder{shape_of_block, cylinder},
+      with_file{shape_of_block, file};
+  return {{"bodies.*.box.size", with_box, b + "box.size=[1, 2, 1]"},
+          {"bodies.*.box.centre", with_box, b + "box.centre=[1, 0, 0]"},
+          {"bodies.*.box.rotation", with_box, b + "box.rotation=[0, 0, 0, 1]"},
+          {"bodies.*.box.rotation.axis", with_box, b + "box.rotation.axis=[1, 0, 0]"},
+          {"bodies.*.box.rotation.angle", with_box, b + "box.rotation.angle=2"},
+          {"bodies.*.sphere.diameter", {}, b + "sphere.diameter=2"},
+          {"bodies.*.sphere.centre", {}, b + "sphere.centre=[3, 0, 0]"},
+          {"bodies.*.cylinder.diameter", with_cylinder, b + "cylinder.diameter=2"},
+          {"bodies.*.cylinder.height", with_cylinder, b + "cylinder.height=2"},
+          {"bodies.*.cylinder.centre", with_cylinder, b + "cylinder.centre=[0, 1, 0]"},
+          {"bodies.*.cylinder.rotation", with_cylinder, b + "cylinder.rotation=[0, 0, 0, 1]"},
+          {"bodies.*.cylinder.rotation.axis", with_cylinder, b + "cylinder.rotation.axis=[1, 0, 0]"},
+          {"bodies.*.cylinder.rotation.angle", with_cylinder, b + "cylinder.rotation.angle=2"},
+          {"bodies.*.mesh.file", with_file, b + "mesh.file=" SCREE_SOURCE_DIR "/CHANGELOG.md"},
+          {"bodies.*.mesh.scale", with_file, b + "mesh.scale=1 mm"},
+          {"bodies.*.mesh.position", with_file, b + "mesh.position=[1, 0, 0]"},
+          {"bodies.*.mesh.rotation", with_file, b + "mesh.rotation=[0, 0, 0, 1]"},
+          {"bodies.*.mesh.rotation.axis", with_file, b + "mesh.rotation.axis=[1, 0, 0]"},
+          {"bodies.*.mesh.rotation.angle", with_file, b + "mesh.rotation.angle=2"}};
+}
+
+std::vector<Change> copy_changes() {
+  const std::string b = "bodies.block.";
+  const std::vector<std::string> on_lattice{no_centre, lattice}, at_random{no_centre, random_copies}, at_places{no_centre, at};
+  const std::vector<std::string> turned_lattice{no_centre, lattice, b + "lattice.rotation=" + turned};
+  const std::vector<std::string> turned_at{no_centre, at, b + "at[0].rotation=" + turned};
+  return {{"bodies.*.lattice.count", on_lattice, b + "lattice.count=[1, 2, 4]"},
+          {"bodies.*.lattice.spacing", on_lattice, b + "lattice.spacing=[1, 2, 1]"},
+          {"bodies.*.lattice.centre", on_lattice, b + "lattice.centre=[1, 0, 0]"},
+          {"bodies.*.lattice.rotation", on_lattice, b + "lattice.rotation=[0, 0, 0, 1]"},
+          {"bodies.*.lattice.rotation.axis", turned_lattice, b + "lattice.rotation.axis=[0, 1, 0]"},
+          {"bodies.*.lattice.rotation.angle", turned_lattice, b + "lattice.rotation.angle=2"},
+          {"bodies.*.random.count", at_random, b + "random.count=2"},
+          {"bodies.*.random.low", at_random, b + "random.low=[-1, 0, 0]"},
+          {"bodies.*.random.high", at_random, b + "random.high=[1, 2, 1]"},
+          {"bodies.*.random.seed", at_random, b + "random.seed=2"},
+          {"bodies.*.random.rotate", at_random, b + "random.rotate=false"},
+          {"bodies.*.at[].position", at_places, b + "at[0].position=[1, 0, 0]"},
+          {"bodies.*.at[].rotation", at_places, b + "at[0].rotation=[0, 0, 0, 1]"},
+          {"bodies.*.at[].rotation.axis", turned_at, b + "at[0].rotation.axis=[0, 1, 0]"},
+          {"bodies.*.at[].rotation.angle", turned_at, b + "at[0].rotation.angle=2"}};
+}
+
+std::vector<Change> world_changes() {
+  return {{"title", {}, "title=other"},
+          {"dimension", {}, "dimension=2"},
+          {"packing", {"settle=null"}, "packing=" SCREE_SOURCE_DIR "/LICENSE"},
+          {"materials.*.density", {}, "materials.ore.density=1"},
+          {"materials.*.conductivity", {}, "materials.ore.conductivity=1"},
+          {"materials.*.specific_heat", {}, "materials.ore.specific_heat=1"},
+          {"materials.*.friction", {}, "materials.ore.friction=1"},
+          {"materials.*.restitution", {}, "materials.ore.restitution=1"},
+          {"bodies.*.material", {"heat=null", "output=null"}, "bodies.block.material=ice"},
+          {"bodies.*.mesh_size", {}, "bodies.block.mesh_size=1"},
+          {"bodies.*.blocks", {}, "bodies.block.blocks=per_element"},
+          {"bodies.*.fixed", {}, "bodies.block.fixed=true"},
+          {"bodies.*.velocity", {}, "bodies.block.velocity=[1, 0, 0]"},
+          {"settle.gravity", {}, "settle.gravity=[0, 0, -1]"},
+          {"settle.limit", {}, "settle.limit=1"},
+          {"settle.step", {}, "settle.step=1"},
+          {"settle.local_damping", {}, "settle.local_damping=0.5"},
+          {"settle.viscous_damping", {}, "settle.viscous_damping=1"},
+          {"settle.rest_displacement", {}, "settle.rest_displacement=1"},
+          {"settle.iterations", {}, "settle.iterations=1"},
+          {"settle.rest_speed", {}, "settle.rest_speed=1"},
+          {"settle.rest_unbalanced_force", {}, "settle.rest_unbalanced_force=1"},
+          {"settle.rest_window", {}, "settle.rest_window=1"},
+          {"settle.frame_interval", {}, "settle.frame_interval=1"},
+          {"settle.accept_moving", {}, "settle.accept_moving=true"}};
+}
+
+std::vector<Change> heat_changes() {
+  return {{"contact.model", {}, "contact.model=exact"},
+          {"contact.indentation", {}, "contact.indentation=0.01"},
+          {"contact.tolerance", {}, "contact.tolerance=1"},
+          {"contact.stiffness_factor", {}, "contact.stiffness_factor=1"},
+          {"contact.form", {}, "contact.form=literal"},
+          {"heat.initial", {}, "heat.initial=1"},
+          {"heat.initial.*", {"heat.initial={plate: 1, block: 2}"}, "heat.initial.plate=2"},
+          {"heat.boundaries[].body", {}, "heat.boundaries[0].body=block"},
+          {"heat.boundaries[].temperature", {}, "heat.boundaries[0].temperature=1"},
+          {"heat.boundaries[].flux", {}, "heat.boundaries[1].flux=1"},
+          {"heat.boundaries[].flow", {}, "heat.boundaries[2].flow=1"},
+          {"heat.boundaries[].name", {}, "heat.boundaries[0].name=x"},
+          {"heat.boundaries[].within.low", {}, "heat.boundaries[1].within.low=[-1, 0, 0]"},
+          {"heat.boundaries[].within.high", {}, "heat.boundaries[1].within.high=[2, 1, 1]"},
+          {"heat.sources[].body", {}, "heat.sources[0].body=plate"},
+          {"heat.sources[].power", {}, "heat.sources[0].power=1"},
+          {"heat.sources[].name", {}, "heat.sources[0].name=x"},
+          {"heat.sources[].within.low",
+           {"heat.sources[0].within={low: [0, 0, 0], high: [1, 1, 1]}"},
+           "heat.sources[0].within.low=[-1, 0, 0]"},
+          {"heat.sources[].within.high",
+           {"heat.sources[0].within={low: [0, 0, 0], high: [1, 1, 1]}"},
+           "heat.sources[0].within.high=[2, 1, 1]"},
+          {"heat.until", {}, "heat.until=1"},
+          {"heat.tolerance", {}, "heat.tolerance=1"},
+          {"heat.integrator", {}, "heat.integrator=explicit_euler"},
+          {"heat.step", {"heat.integrator=explicit_euler"}, "heat.step=1"},
+          {"output.every", {}, "output.every=1"},
+          {"output.probes.*", {}, "output.probes.low=[1, 0, 0]"},
+          {"output.probes.*.point", {}, "output.probes.high.point=[1, 0, 0]"},
+          {"output.probes.*.reach", {}, "output.probes.high.reach=1"}};
+}
+
+std::map<std::string, Change> all_changes() {
+  std::map<std::string, Change> changes;
+  for (const auto& part : {world_changes(), shape_changes(), copy_changes(), heat_changes()}) {
+    for (const Change& change : part) changes[change.key] = change;
+  }
+  return changes;
+}
+
+TEST(SceneKeys, EveryKeyOfTheTableIsRead) {
+  const auto changes = all_changes();
+  for (const Key& key : scene_keys().keys()) {
+    if (key.type == KeyType::section || key.type == KeyType::names || key.type == KeyType::list) continue;
+    const auto place = changes.find(key.path);
+    ASSERT_NE(place, changes.end()) << key.path << " has no change in this test";
+    const Change& change = place->second;
+    const std::string before = values_of(scene_of(whole_scene, change.before));
+    std::vector<std::string> overrides = change.before;
+    overrides.push_back(change.after);
+    try {
+      EXPECT_NE(values_of(scene_of(whole_scene, overrides)), before) << key.path;
+    } catch (const InputError& error) {
+      // A second word or dimension that this scene cannot have: read all the same.
+      EXPECT_TRUE(key.path == "contact.model" || key.path == "dimension") << error.what();
+    }
+  }
+}
+
+TEST(SceneKeys, EveryKeyHasAMeaning) {
+  for (const Key& key : scene_keys().keys()) {
+    EXPECT_TRUE(key.meaning.ends_with('.') || key.meaning.ends_with(']')) << key.path;
+    EXPECT_LT(key.meaning.size(), 120u) << key.path;
+  }
+}
+
+TEST(SceneKeys, TheReferenceIsGroupedAndFiltered) {
+  const std::string all = key_reference(scene_keys());
+  for (const char* section : {"\n\nmaterials ", "\n\nbodies ", "\n\nsettle ", "\n\ncontact ", "\n\nheat ", "\n\noutput "}) {
+    EXPECT_THAT(all, testing::HasSubstr(section));
+  }
+  const std::string some = key_reference(scene_keys(), "contact.f");
+  EXPECT_THAT(some, testing::HasSubstr("contact.form  one of consistent, literal  consistent  "));
+  EXPECT_THAT(some, testing::Not(testing::HasSubstr("contact.model")));
+}
+
+// Every object of the schema: closed, and its required keys among its properties.
+void check_objects(const Json& schema) {
+  if (schema.is_object() && schema.value("type", Json()) == "object") {
+    ASSERT_TRUE(schema.contains("additionalProperties"));
+    for (const auto& name : schema.value("required", Json::array())) EXPECT_TRUE(schema["properties"].contains(name)) << name;
+  }
+  if (schema.is_structured()) {
+    for (const auto& part : schema) check_objects(part);
+  }
+}
+
+TEST(SceneKeys, TheSchemaSaysWhatTheTableSays) {
+  const Json schema = Json::parse(key_schema(scene_keys(), "Scree scene"));
+  EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+  check_objects(schema);
+  EXPECT_EQ(schema["additionalProperties"], false);
+  EXPECT_EQ(schema["required"], Json::array({"materials", "bodies"}));
+  const Json& material = schema["properties"]["materials"]["additionalProperties"]["properties"];
+  EXPECT_EQ(material["density"]["anyOf"][0]["exclusiveMinimum"], 0);
+  EXPECT_EQ(material["restitution"]["anyOf"][0]["maximum"], 1);
+  const Json& body = schema["properties"]["bodies"]["additionalProperties"];
+  EXPECT_EQ(body["properties"]["blocks"]["enum"], Json::array({"whole", "per_element"}));
+  EXPECT_EQ(body["allOf"][0]["oneOf"].size(), 4u);
+  EXPECT_EQ(schema["properties"]["dimension"]["enum"], Json::array({2, 3}));
+  EXPECT_EQ(schema["properties"]["output"]["properties"]["probes"]["additionalProperties"]["anyOf"].size(), 2u);
+  for (const auto& [name, section] : schema["properties"].items()) EXPECT_TRUE(section.contains("description")) << name;
+}
+
+}  // namespace
+
+}  // namespace scree
