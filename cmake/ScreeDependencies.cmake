@@ -10,8 +10,8 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOGeometry IOImage FiltersCore FiltersGeneral
-             FiltersGeometry FiltersSources RenderingCore RenderingOpenGL2 RenderingAnnotation RenderingFreeType)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
+             FiltersSources IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 
 # scree_library(TARGET LIBRARY HEADER [SUFFIX]): for packages without a CMake or pkg-config file.
 function(scree_library target library header)

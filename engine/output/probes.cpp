@@ -108,7 +108,8 @@ Problem in_a_void(const ProbeSpec& spec, const mesh::BlockMesh<dim>& mesh, const
   problem.rule = fmt::format("must lie in a block; the nearest, block {} of {}, is {:.3g} m away{}", block.value(),
                              mesh.bodies[mesh.blocks[block].body].name, nearest.distance,
                              spec.reach > 0 ? fmt::format(" and its reach is {:.3g} m", spec.reach) : "");
-  problem.suggestion = fmt::format("Move it, or let it move by itself with reach: {:.2g} m", round_up(nearest.distance));
+  problem.suggestion = fmt::format("Move it, or let it move by itself with {{point: {}, reach: {:.2g} m}}", problem.value,
+                                   round_up(nearest.distance));
   return problem;
 }
 

@@ -15,9 +15,7 @@
 #include <vtkPoints.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-#include <vtkXMLUtilities.h>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
@@ -126,25 +124,6 @@ std::string vtu_text(const Grid& grid, const Frame& frame, const fs::path& file)
   return writer->GetOutputString();
 }
 
-// The frames a .pvd names, as (time, file).
-std::vector<std::pair<double, std::string>> read_index(const fs::path& index) {
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(index.c_str()));
-  auto* collection = root == nullptr ? nullptr : root->FindNestedElementWithName("Collection");
-  if (collection == nullptr) throw RunError(fmt::format("{}: is no ParaView series. Run without resuming", index.string()));
-  std::vector<std::pair<double, std::string>> frames;
-  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-    auto* frame = collection->GetNestedElement(i);
-    const char* time = frame->GetAttribute("timestep");
-    const char* file = frame->GetAttribute("file");
-    if (time == nullptr || file == nullptr || !fs::is_regular_file(index.parent_path() / file)) {
-      throw RunError(fmt::format("{}: names a frame that is missing ({}). Run without resuming", index.string(),
-                                 file == nullptr ? "no name" : file));
-    }
-    frames.emplace_back(std::strtod(time, nullptr), file);
-  }
-  return frames;
-}
-
 // Removes all frames of a series but those in `kept`, and what an interrupted write left behind.
 void remove_frames(const fs::path& folder, const std::string& name, const std::set<fs::path>& kept) {
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -157,53 +136,45 @@ void remove_frames(const fs::path& folder, const std::string& name, const std::s
 }  // namespace
 
 Series::Series(fs::path directory, std::string name, std::optional<double> keep_until)
-    : directory_(std::move(directory)), name_(std::move(name)) {
-  const fs::path index = directory_ / (name_ + ".pvd");
+    : directory_(std::move(directory)), index_(directory_ / (name + ".pvd")), name_(std::move(name)) {
   try {
     fs::create_directories(directory_ / name_);
     fs::remove(directory_ / fmt::format(".part-{}.pvd", name_));
     std::set<fs::path> kept;
-    if (keep_until && fs::exists(index)) {
-      for (auto& [time, file] : read_index(index)) {
-        if (time > *keep_until) continue;
-        kept.insert(directory_ / file);
-        entries_.push_back({time, std::move(file)});
+    if (keep_until && fs::exists(index_)) {
+      for (SeriesEntry& entry : read_index(index_)) {
+        if (entry.time > *keep_until) continue;
+        kept.insert(directory_ / entry.file);
+        entries_.push_back(std::move(entry));
       }
     }
     // The index goes first, so that it never names a file that is gone.
-    if (entries_.empty()) fs::remove(index);
-    if (!entries_.empty()) write_index();
+    if (entries_.empty()) {
+      fs::remove(index_);
+    } else {
+      write_index(index_, entries_);
+    }
     remove_frames(directory_ / name_, name_, kept);
   } catch (const fs::filesystem_error& error) {
     throw RunError(
-        fmt::format("{}: the series could not be started ({}). Choose another --out", index.string(), error.code().message()));
+        fmt::format("{}: the series could not be started ({}). Choose another --out", index_.string(), error.code().message()));
   }
 }
 
 void Series::write(const Grid& grid, const Frame& frame) {
   SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
-  Entry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
+  SeriesEntry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
   const fs::path file = directory_ / entry.file;
   write_text(file, vtu_text(grid, frame, file));
   entries_.push_back(std::move(entry));
   try {
-    write_index();
+    write_index(index_, entries_);
   } catch (...) {
     entries_.pop_back();
     std::error_code ignored;
     fs::remove(file, ignored);
     throw;
   }
-}
-
-void Series::write_index() const {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (const Entry& entry : entries_) {
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, entry.file);
-  }
-  text += "  </Collection>\n</VTKFile>\n";
-  write_text(directory_ / (name_ + ".pvd"), text);
 }
 
 }  // namespace scree::output

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include "engine/mesh/block_mesh.h"
+#include "engine/output/series_index.h"
 
 namespace scree::output {
 
@@ -57,15 +58,10 @@ class Series {
   [[nodiscard]] std::size_t frames() const { return entries_.size(); }
 
  private:
-  struct Entry {
-    double time = 0;
-    std::string file;
-  };
-  void write_index() const;
-
   std::filesystem::path directory_;
+  std::filesystem::path index_;
   std::string name_;
-  std::vector<Entry> entries_;
+  std::vector<SeriesEntry> entries_;
 };
 
 }  // namespace scree::output

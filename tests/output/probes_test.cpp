@@ -79,7 +79,7 @@ TEST(Probes, AVoidIsAnErrorThatNamesTheNearestBlockItsBodyAndTheWayOut) {
   spec.where = {"pile.yaml", 20, 5};
   EXPECT_EQ(message(two_tets(), spec),
             "pile.yaml:20:5: output.probes.high is [1.75, 0, 0] (must lie in a block; the nearest, block 1 of stone, is 0.25 m "
-            "away). Move it, or let it move by itself with reach: 0.26 m");
+            "away). Move it, or let it move by itself with {point: [1.75, 0, 0], reach: 0.26 m}");
   spec.reach = 0.1;
   EXPECT_THAT(message(two_tets(), spec), HasSubstr("is 0.25 m away and its reach is 0.1 m"));
 }

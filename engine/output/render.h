@@ -1,0 +1,31 @@
+// Pictures of a series, drawn without a screen.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/base/geometry.h"
+
+namespace scree::output {
+
+struct Picture {
+  std::filesystem::path series;  // the .pvd
+  std::string array;             // coloured by: real values with a legend, integers (block, body) one colour each
+  std::optional<double> time;    // of the frame [s], the nearest one is drawn; the last frame if not given
+  std::optional<Aabb<3>> view;   // what the picture is to show; everything if not given [m]
+  std::optional<double> cut;     // shows the inside: only what lies behind the plane y = this [m]
+  int width = 1200;              // [pixels]
+  int height = 700;
+  std::string title;                           // of the legend, with the unit; the array's name if empty
+  std::optional<std::array<double, 2>> range;  // of the legend; that of the frame if not given
+  double offset = 0;                           // added to every value first: -273.15 shows kelvin as degrees Celsius
+};
+
+// Draws one frame into a PNG. 3-D is seen from above at an angle, from the side of negative y; 2-D from the front.
+// Throws InputError for an array the frame does not have, and RunError for a series that cannot be read, a picture that cannot
+// be written, or a missing Xvfb.
+void render(const Picture& picture, const std::filesystem::path& png);
+
+}  // namespace scree::output

@@ -1,0 +1,153 @@
+#include "engine/output/render.h"
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include "engine/base/check.h"
+#include "tests/output/synthetic_pile.h"
+
+namespace scree::output {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Pixels of one kind of colour and their mean row, counted from the bottom.
+struct Patch {
+  int pixels = 0;
+  double row = 0;
+};
+
+template <class IsWanted>
+Patch find_pixels(const std::filesystem::path& png, int columns, const IsWanted& is_wanted) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(png.c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  Patch patch;
+  for (int row = 0; row < image.GetDimensions()[1]; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const auto* rgb = static_cast<unsigned char*>(image.GetScalarPointer(column, row, 0));
+      if (!is_wanted(rgb[0], rgb[1], rgb[2])) continue;
+      ++patch.pixels;
+      patch.row += row;
+    }
+  }
+  patch.row /= std::max(1, patch.pixels);
+  return patch;
+}
+
+class RenderTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v Xvfb > /dev/null") != 0) GTEST_SKIP() << "Xvfb is not installed (tools/setup installs it)";
+    const auto mesh = synthetic_pile(300, 6);
+    Series series(folder_.path(), "heat");
+    series.write(make_grid(mesh), warmed_from_below(mesh, 60));
+    series.write(make_grid(mesh), warmed_from_below(mesh, 36000));
+    picture_.series = folder_.path() / "heat.pvd";
+    picture_.array = "temperature";
+    picture_.range = {{298.15, 373.15}};
+    picture_.width = 360;
+    picture_.height = 240;
+  }
+
+  static constexpr int scene_columns = 290;  // left of the legend
+  TempFolder folder_;
+  std::filesystem::path png_ = folder_.path() / "picture.png";
+  Picture picture_;
+};
+
+TEST_F(RenderTest, TheHeapIsColdOnTopAndHotBelowAndTheRestIsWhite) {
+  for (const std::optional<double> cut : {std::optional<double>(), std::optional<double>(0)}) {
+    picture_.cut = cut;
+    render(picture_, png_);
+    const Patch cold = find_pixels(png_, scene_columns, [](int r, int, int b) { return b > r + 20; });
+    const Patch hot = find_pixels(png_, scene_columns, [](int r, int, int b) { return r > b + 60; });
+    const Patch white = find_pixels(png_, scene_columns, [](int r, int g, int b) { return r + g + b == 3 * 255; });
+    EXPECT_GT(cold.pixels, 300);
+    EXPECT_GT(hot.pixels, 3000);
+    EXPECT_GT(cold.row, hot.row + 20);
+    EXPECT_GT(white.pixels, 10000);
+  }
+}
+
+TEST_F(RenderTest, TheSamePictureTwiceIsTheSameToTheByte) {
+  render(picture_, png_);
+  const std::string first = content(png_);
+  render(picture_, png_);
+  EXPECT_EQ(content(png_), first);
+}
+
+TEST_F(RenderTest, DrawsTheNearestFrameAndLeavesTheCallersDisplayAsItWas) {
+  ::setenv("DISPLAY", ":none", 1);
+  render(picture_, png_);
+  const std::string last = content(png_);
+  picture_.time = 100;
+  render(picture_, png_);
+  EXPECT_NE(content(png_), last);
+  picture_.time = 30000;
+  render(picture_, png_);
+  EXPECT_EQ(content(png_), last);
+  EXPECT_STREQ(std::getenv("DISPLAY"), ":none");
+}
+
+TEST_F(RenderTest, BodiesGetAColourEach) {
+  picture_.array = "body";
+  render(picture_, png_);
+  const Patch plate = find_pixels(png_, picture_.width, [](int r, int g, int) { return g > r + 20; });
+  const Patch rocks = find_pixels(png_, picture_.width, [](int r, int g, int) { return r > g + 40; });
+  EXPECT_GT(plate.pixels, 5000);
+  EXPECT_GT(rocks.pixels, 1000);
+}
+
+TEST_F(RenderTest, FlatDataIsSeenFromTheFront) {
+  mesh::BlockMesh<2> mesh;
+  mesh.bodies.push_back({"bar", MaterialId{0}, false, {}});
+  add_block<2>(mesh, BodyId{0}, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)});
+  Series series(folder_.path(), "flat");
+  series.write(make_grid(mesh), {0, {{"temperature", 1, std::vector<double>{373.15, 373.15, 298.15}}}, {}});
+  picture_.series = folder_.path() / "flat.pvd";
+  render(picture_, png_);
+  const Patch cold = find_pixels(png_, scene_columns, [](int r, int, int b) { return b > r + 20; });
+  const Patch hot = find_pixels(png_, scene_columns, [](int r, int, int b) { return r > b + 60; });
+  EXPECT_GT(hot.pixels, 5000);
+  EXPECT_GT(cold.row, hot.row + 40);
+}
+
+TEST_F(RenderTest, AnUnknownArrayIsAnErrorThatListsTheKnownOnes) {
+  picture_.array = "heat";
+  try {
+    render(picture_, png_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "array is heat (one of temperature, body)");
+  }
+}
+
+TEST_F(RenderTest, WithoutXvfbTheErrorSaysWhatToInstall) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder_.path().c_str(), 1);
+  try {
+    render(picture_, png_);
+    ADD_FAILURE();
+  } catch (const RunError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("apt-get install xvfb"));
+  }
+  ::setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(RenderTest, AMissingSeriesOrAnEmptyViewIsAnError) {
+  picture_.view = Aabb<3>(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6));
+  EXPECT_THROW(render(picture_, png_), RunError);
+  picture_.series = folder_.path() / "none.pvd";
+  EXPECT_THROW(render(picture_, png_), RunError);
+  EXPECT_FALSE(std::filesystem::exists(png_));
+}
+
+}  // namespace
+}  // namespace scree::output
