@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/mesh/arrangement.h"
+#include "engine/mesh/mesh_file.h"
 #include "engine/mesh/shape_mesh.h"
 #include "engine/mesh/simplex_mesh.h"
 
@@ -11,7 +12,8 @@ namespace scree::mesh {
 namespace {
 
 template <int dim>
-Parts<dim> mesh_parts(const BodySpec& body, const MeshReaders&) {
+Parts<dim> mesh_parts(const BodySpec& body, const MeshReaders& readers) {
+  if (std::holds_alternative<MeshFile>(body.shape)) return mesh_file<dim>(body, readers);
   return {mesh_shape<dim>(body)};
 }
 

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <fmt/format.h>
+
 #include "engine/base/check.h"
 #include "engine/mesh/body_spec.h"
 
@@ -14,8 +16,18 @@ inline InputError body_error(const BodySpec& body, const std::string& key, const
   return InputError(Problem{body.where, "bodies." + body.name + (key.empty() ? "" : "." + key), value, rule, suggestion});
 }
 
+// A wrong mesh file.
 inline InputError file_error(const BodySpec& body, const std::string& rule, const std::string& suggestion) {
   return body_error(body, "mesh.file", std::get<MeshFile>(body.shape).path.string(), rule, suggestion);
+}
+
+// Refuses a mesh_size that would fill the memory; `elements` is what it is expected to make.
+inline void expect_reasonable(const BodySpec& body, double elements) {
+  constexpr double most = 2e7;
+  if (elements <= most) return;
+  throw body_error(body, "mesh_size", fmt::format("{} m", body.mesh_size),
+                   fmt::format("it would make about {:.2g} elements, and {:.0g} are the most", elements, most),
+                   "Choose a larger mesh_size");
 }
 
 }  // namespace scree::mesh

@@ -16,8 +16,6 @@ namespace scree::mesh {
 
 namespace {
 
-constexpr double most_elements = 2e7;
-
 // Gmsh's faces are off by rounding; a block that lies on its face should not lean.
 constexpr double snap = 1e-9;
 
@@ -118,12 +116,7 @@ double volume(const Cylinder& cylinder) {
 template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   // A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
-  const double expected = volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(body.mesh_size, dim));
-  if (expected > most_elements) {
-    throw body_error(body, "mesh_size", fmt::format("{} m", body.mesh_size),
-                     fmt::format("it would make about {:.2g} elements, and {:.0g} are the most", expected, most_elements),
-                     "Choose a larger mesh_size");
-  }
+  expect_reasonable(body, volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(body.mesh_size, dim)));
   RawMesh raw;
   with_gmsh([&] {
     gmsh::model::add(body.name);

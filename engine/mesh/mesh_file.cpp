@@ -1,0 +1,113 @@
+#include "engine/mesh/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmsh.h>
+
+#include "engine/mesh/closed_surface.h"
+#include "engine/mesh/gmsh_session.h"
+#include "engine/mesh/point_checks.h"
+#include "engine/mesh/problems.h"
+#include "engine/mesh/volume_mesh.h"
+
+namespace scree::mesh {
+
+namespace {
+
+// Gmsh runs whatever does not begin like a mesh as a script of its own language, which can start programs.
+void expect_mesh_format(const std::filesystem::path& path) {
+  constexpr std::string_view expected = "$MeshFormat";
+  std::string start(expected.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != expected) throw std::runtime_error("it does not begin with $MeshFormat");
+}
+
+RawMesh read_by_gmsh(const std::filesystem::path& path) {
+  RawMesh raw;
+  with_gmsh([&] {
+    gmsh::open(path.string());
+    raw = model_mesh();
+  });
+  return raw;
+}
+
+MeshReaders all_readers(const MeshReaders& more) {
+  MeshReaders readers = more;
+  readers[".stl"] = read_by_gmsh;
+  readers[".msh"] = [](const std::filesystem::path& path) {
+    expect_mesh_format(path);
+    return read_by_gmsh(path);
+  };
+  return readers;
+}
+
+RawMesh read_raw(const BodySpec& body, const MeshReaders& more) {
+  const std::filesystem::path& path = std::get<MeshFile>(body.shape).path;
+  const MeshReaders readers = all_readers(more);
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto reader = readers.find(extension);
+  if (reader == readers.end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, ignored] : readers) known.push_back(name);
+    throw file_error(body, fmt::format("must be one of {}", fmt::join(known, ", ")),
+                     "Convert the mesh, for instance with Gmsh");
+  }
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    throw file_error(body, "no such file", "A relative path counts from the scene's folder");
+  }
+  const auto damaged = [&](const std::string& reason) {
+    return file_error(body, fmt::format("must be a whole {} mesh; it cannot be read: {}", extension, reason),
+                      "Export it again");
+  };
+  try {
+    return reader->second(path);
+  } catch (const GmshFailure& failure) {
+    throw damaged(failure.reason);
+  } catch (const std::runtime_error& failure) {
+    throw damaged(failure.what());
+  }
+}
+
+void expect_simplices(const BodySpec& body, const RawMesh& raw) {
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : raw.unusable) kinds.push_back(fmt::format("{} x {}", count, kind));
+  if (kinds.empty()) return;
+  throw file_error(body, fmt::format("must hold first-order triangles or tetrahedra only; it holds {}", fmt::join(kinds, ", ")),
+                   "Mesh the shape with tetrahedra of first order");
+}
+
+void expect_in_plane(const BodySpec& body, const RawMesh& raw) {
+  const auto off = std::find_if(raw.points.begin(), raw.points.end(), [](const auto& point) { return point.z() != 0; });
+  if (raw.tetrahedra.empty() && off == raw.points.end()) return;
+  throw file_error(body, "a scene in 2-D takes triangles in the plane z = 0", "Use a plane mesh, or `dimension: 3`");
+}
+
+}  // namespace
+
+template <int dim>
+Parts<dim> mesh_file(const BodySpec& body, const MeshReaders& readers) {
+  RawMesh raw = read_raw(body, readers);
+  for (Eigen::Vector3d& point : raw.points) point *= std::get<MeshFile>(body.shape).scale;
+  expect_simplices(body, raw);
+  if (raw.triangles.empty() && raw.tetrahedra.empty()) {
+    throw file_error(body, "it holds no triangles and no tetrahedra", "Export the mesh with its elements");
+  }
+  check_points(body, raw);
+  if constexpr (dim == 2) {
+    expect_in_plane(body, raw);
+  } else if (raw.tetrahedra.empty()) {
+    return fill_surface(body, raw);
+  }
+  return checked_volume<dim>(body, raw);
+}
+
+template Parts<2> mesh_file<2>(const BodySpec&, const MeshReaders&);
+template Parts<3> mesh_file<3>(const BodySpec&, const MeshReaders&);
+
+}  // namespace scree::mesh

@@ -1,0 +1,249 @@
+#include "engine/mesh/mesh_file.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/mesh/body_builders.h"
+#include "tests/mesh/sample_files.h"
+
+namespace scree::mesh {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using MeshFiles = MeshFileTest;
+
+const Points corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const Cell one_tetrahedron{Kind::tetrahedron, {1, 2, 3, 4}};
+
+Points both(Points first, const Points& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::vector<Cell> both(std::vector<Cell> first, const std::vector<Cell>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+TEST_F(MeshFiles, AVolumeMeshIsUsedAsItIs) {
+  std::vector<BlockMesh<3>> meshes;
+  for (const bool binary : {false, true}) {
+    write_box(directory_ / "box.msh", binary);
+    meshes.push_back(make_blocks<3>({body_with("box.msh", "", 9)}));
+    EXPECT_EQ(meshes.back().blocks.size(), 1u);
+    EXPECT_NEAR(total_volume(meshes.back()), 6, 1e-12);
+  }
+  EXPECT_EQ(meshes[0].elements, meshes[1].elements);
+  for (const NodeId node : meshes[0].nodes.ids()) {
+    EXPECT_LT((meshes[0].nodes[node] - meshes[1].nodes[node]).norm(), 1e-14);
+  }
+}
+
+TEST_F(MeshFiles, ASurfaceIsMeshedInsideWithTheMeshSize) {
+  for (const bool binary : {false, true}) {
+    write_box(directory_ / "box.stl", binary);
+    const auto coarse = make_blocks<3>({body_with("box.stl", "", 0.6)});
+    const auto fine = make_blocks<3>({body_with("box.stl", "", 0.25)});
+    EXPECT_EQ(coarse.blocks.size(), 1u);
+    EXPECT_NEAR(total_volume(coarse), 6, 1e-6);
+    EXPECT_NEAR(total_volume(fine), 6, 1e-6);
+    EXPECT_GT(fine.elements.size(), 2 * coarse.elements.size());
+    EXPECT_NEAR(mean_edge(fine), 0.25, 0.1);
+  }
+}
+
+TEST_F(MeshFiles, ASurfaceInAMeshFileIsMeshedInsideToo) {
+  const auto mesh = make_blocks<3>({body_with("cube.msh", msh_text(cube_points(), cube_triangles()), 0.3)});
+  EXPECT_NEAR(total_volume(mesh), 1, 1e-13);
+  EXPECT_NEAR(mean_edge(mesh), 0.3, 0.1);
+  for (const ElementId e : mesh.elements.ids()) EXPECT_GT(element_volume(mesh, e), 0);
+}
+
+TEST_F(MeshFiles, WhichWayASurfaceFacesDoesNotMatter) {
+  auto triangles = cube_triangles();
+  for (Cell& cell : triangles) std::swap(cell.nodes[1], cell.nodes[2]);
+  const auto inside_out = make_blocks<3>({body_with("out.msh", msh_text(cube_points(), triangles))});
+  EXPECT_NEAR(total_volume(inside_out), 1, 1e-13);
+  std::swap(triangles[3].nodes[1], triangles[3].nodes[2]);
+  const auto mixed = make_blocks<3>({body_with("mixed.msh", msh_text(cube_points(), triangles))});
+  EXPECT_NEAR(total_volume(mixed), 1, 1e-13);
+}
+
+TEST_F(MeshFiles, TheSameFileGivesTheSameMeshToTheBit) {
+  const auto body = body_with("cube.msh", msh_text(cube_points(), cube_triangles()), 0.2);
+  const auto first = make_blocks<3>({body}), second = make_blocks<3>({body});
+  EXPECT_EQ(first.nodes, second.nodes);
+  EXPECT_EQ(first.elements, second.elements);
+}
+
+TEST_F(MeshFiles, TheScaleIsMetresPerUnit) {
+  auto body = body_with("tet.msh", msh_text(corners, {one_tetrahedron}));
+  std::get<MeshFile>(body.shape).scale = 0.001;
+  EXPECT_NEAR(total_volume(make_blocks<3>({body})), 1e-9 / 6, 1e-24);
+}
+
+TEST_F(MeshFiles, TrianglesAreTheElementsInThePlane) {
+  const auto body = body_with("plane.msh", msh_text({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                                    {{Kind::triangle, {1, 2, 3}}, {Kind::triangle, {1, 3, 4}}}));
+  const auto mesh = make_blocks<2>({body});
+  EXPECT_EQ(mesh.elements.size(), 2u);
+  EXPECT_EQ(mesh.nodes.size(), 4u);
+  EXPECT_EQ(total_volume(mesh), 1);
+}
+
+TEST_F(MeshFiles, LoosePartsAreBlocksOfTheirOwn) {
+  const Points points = both(corners, {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  const Cell second{Kind::tetrahedron, {5, 6, 7, 8}};
+  EXPECT_EQ(make_blocks<3>({body_with("two.msh", msh_text(points, {one_tetrahedron, second}))}).blocks.size(), 2u);
+  const auto shells =
+      body_with("shells.msh", msh_text(both(cube_points(), cube_points(3)), both(cube_triangles(), cube_triangles(9))));
+  const auto mesh = make_blocks<3>({shells});
+  EXPECT_EQ(mesh.blocks.size(), 2u);
+  EXPECT_NEAR(total_volume(mesh), 2, 1e-13);
+}
+
+TEST_F(MeshFiles, FacesBesideTetrahedraAreTheirBoundary) {
+  const Cell face{Kind::triangle, {1, 3, 2}}, line{Kind::line, {1, 2}};
+  const auto mesh = make_blocks<3>({body_with("tet.msh", msh_text(corners, {line, face, one_tetrahedron}))});
+  EXPECT_EQ(mesh.elements.size(), 1u);
+}
+
+TEST_F(MeshFiles, AMissingFileIsSaid) {
+  EXPECT_EQ(refusal("none.msh", ""), "(no such file). A relative path counts from the scene's folder");
+}
+
+TEST_F(MeshFiles, AnUnknownKindOfFileIsSaid) {
+  EXPECT_EQ(refusal("stone.obj", "v 0 0 0"), "(must be one of .msh, .stl). Convert the mesh, for instance with Gmsh");
+}
+
+TEST_F(MeshFiles, AScriptInPlaceOfAMeshIsNotRun) {
+  EXPECT_EQ(refusal("script.msh", "SystemCall \"touch ran\";"),
+            "(must be a whole .msh mesh; it cannot be read: it does not begin with $MeshFormat). Export it again");
+}
+
+TEST_F(MeshFiles, ADamagedFileIsRefusedWhereverItEnds) {
+  write_box(directory_ / "box.msh", true);
+  std::ostringstream whole;
+  whole << std::ifstream(directory_ / "box.msh", std::ios::binary).rdbuf();
+  for (const double part : {0.01, 0.2, 0.5, 0.9}) {
+    const auto length = static_cast<std::size_t>(part * static_cast<double>(whole.str().size()));
+    EXPECT_THAT(refusal("cut.msh", whole.str().substr(0, length)), StartsWith("(must be a whole .msh mesh; it cannot be read"));
+  }
+  EXPECT_THAT(refusal("cut.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"),
+              StartsWith("(must be a whole .stl mesh; it cannot be read"));
+}
+
+TEST_F(MeshFiles, AnEmptyMeshIsRefused) {
+  EXPECT_EQ(refusal("points.msh", msh_text(corners, {{Kind::line, {1, 2}}, {Kind::line, {3, 4}}})),
+            "(it holds no triangles and no tetrahedra). Export the mesh with its elements");
+  EXPECT_EQ(refusal("empty.stl", "solid s\nendsolid s\n"),
+            "(it holds no triangles and no tetrahedra). Export the mesh with its elements");
+}
+
+TEST_F(MeshFiles, ElementsThatAreNoSimplicesAreNamed) {
+  const Cell hexahedron{Kind::hexahedron, {1, 2, 4, 3, 5, 6, 8, 7}};
+  EXPECT_EQ(
+      refusal("hexahedron.msh", msh_text(cube_points(), {hexahedron})),
+      "(must hold first-order triangles or tetrahedra only; it holds 1 x Hexahedron 8). Mesh the shape with tetrahedra of "
+      "first order");
+}
+
+TEST_F(MeshFiles, AnOpenSurfaceTellsItsOpenEdges) {
+  auto triangles = cube_triangles();
+  triangles.pop_back();
+  EXPECT_EQ(refusal("open.msh", msh_text(cube_points(), triangles)),
+            "(must be closed; 3 of its edges have a triangle on one side only, the first from (1, 0, 0) m to (1, 0, 1) m). "
+            "Repair the surface, for instance with Meshlab");
+}
+
+TEST_F(MeshFiles, ASurfaceWithAFinIsRefused) {
+  const Points points = both(cube_points(), {{-1, -1, 0}, {-1, -1, 1}});
+  const std::vector<Cell> fin{
+      {Kind::triangle, {1, 5, 9}}, {Kind::triangle, {5, 10, 9}}, {Kind::triangle, {1, 9, 10}}, {Kind::triangle, {1, 10, 5}}};
+  EXPECT_EQ(refusal("fin.msh", msh_text(points, both(cube_triangles(), fin))),
+            "(must be closed; 1 of its edges have more than two triangles, the first from (0, 0, 0) m to (0, 0, 1) m). "
+            "Repair the surface, for instance with Meshlab");
+}
+
+TEST_F(MeshFiles, AHollowSurfaceIsRefused) {
+  Points inner = cube_points();
+  for (auto& point : inner) {
+    for (double& x : point) x = 0.3 + 0.4 * x;
+  }
+  EXPECT_EQ(refusal("hollow.msh", msh_text(both(cube_points(), inner), both(cube_triangles(), cube_triangles(9)))),
+            "(shell 2 lies inside shell 1). Give a hollow body as a volume mesh (.msh or .vtu with tetrahedra)");
+}
+
+TEST_F(MeshFiles, ASurfaceThatCutsItselfIsRefused) {
+  Points points = cube_points();
+  points[7] = {0.5, 0.5, -1};  // one corner pulled through the opposite face
+  EXPECT_THAT(refusal("cut.msh", msh_text(points, cube_triangles())), StartsWith("(Gmsh could not mesh its inside"));
+}
+
+TEST_F(MeshFiles, AFlatTriangleIsRefused) {
+  Points points = both(cube_points(), {{0.5, 0, 0}});
+  auto triangles = both(cube_triangles(), {{Kind::triangle, {1, 9, 2}}});
+  EXPECT_EQ(refusal("flat.msh", msh_text(points, triangles)),
+            "(triangle 13 is flat, near (0, 0, 0) m). Repair the surface, for instance with Meshlab");
+}
+
+TEST_F(MeshFiles, AnInvertedElementIsNamed) {
+  const Cell inverted{Kind::tetrahedron, {1, 2, 3, 5}};
+  EXPECT_EQ(refusal("inverted.msh", msh_text(both(corners, {{0, 0, -1}}), {one_tetrahedron, inverted})),
+            "(tetrahedron 2 is inside out). Mesh the shape again");
+  EXPECT_EQ(refusal<2>("clockwise.msh", msh_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{Kind::triangle, {1, 3, 2}}})),
+            "(triangle 1 is inside out). Turn the surface over, so that its triangles run counter-clockwise");
+}
+
+TEST_F(MeshFiles, AFlatElementIsNamed) {
+  const Cell flat{Kind::tetrahedron, {1, 2, 3, 5}};
+  EXPECT_EQ(refusal("flat.msh", msh_text(both(corners, {{1, 1, 0}}), {one_tetrahedron, flat})),
+            "(tetrahedron 2 is flat). Mesh the shape again");
+}
+
+TEST_F(MeshFiles, OverlappingElementsAreNamed) {
+  EXPECT_EQ(refusal("twice.msh", msh_text(corners, {one_tetrahedron, one_tetrahedron})),
+            "(tetrahedrons 1 and 2 lie on the same side of a face). Remove elements that are there twice or overlap");
+}
+
+TEST_F(MeshFiles, TwoNodesAtOnePlaceAreNamed) {
+  const Cell second{Kind::tetrahedron, {5, 6, 7, 8}};
+  EXPECT_EQ(
+      refusal("double.msh", msh_text(both(corners, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 2}}), {one_tetrahedron, second})),
+      "(nodes 1 and 5 are at the same place). Merge such nodes (in Gmsh: Mesh, Remove duplicate nodes), or make touching "
+      "parts bodies of their own");
+}
+
+TEST_F(MeshFiles, ALooseNodeIsNamed) {
+  EXPECT_EQ(refusal("loose.msh", msh_text(both(corners, {{4, 4, 4}}), {one_tetrahedron})),
+            "(1 of its nodes belong to no element; the first is node 5). Remove them, or export the elements they belong to");
+}
+
+TEST_F(MeshFiles, ATriangleApartFromTheTetrahedraIsNamed) {
+  const Points points = both(corners, {{4, 0, 0}, {5, 0, 0}, {4, 1, 0}});
+  EXPECT_EQ(refusal("apart.msh", msh_text(points, {{Kind::triangle, {5, 6, 7}}, one_tetrahedron})),
+            "(triangle 1 belongs to no tetrahedron). Mesh the volume behind it, or give it as a body of its own");
+}
+
+TEST_F(MeshFiles, ASolidInATwoDimensionalSceneIsRefused) {
+  EXPECT_EQ(refusal<2>("solid.msh", msh_text(corners, {one_tetrahedron})),
+            "(a scene in 2-D takes triangles in the plane z = 0). Use a plane mesh, or `dimension: 3`");
+}
+
+TEST_F(MeshFiles, AReaderAddsAKindOfFile) {
+  const MeshReader reader = [](const std::filesystem::path&) {
+    RawMesh raw;
+    for (const auto& [x, y, z] : corners) raw.points.emplace_back(x, y, z);
+    raw.point_numbers = {0, 1, 2, 3};
+    raw.tetrahedra = {{0, {0, 1, 2, 3}}};
+    return raw;
+  };
+  EXPECT_EQ(make_blocks<3>({body_with("tet.MINE", "any")}, {{".mine", reader}}).elements.size(), 1u);
+}
+
+}  // namespace
+}  // namespace scree::mesh

@@ -1,0 +1,50 @@
+// Mesh files for the tests, good and bad ones.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/mesh/body_spec.h"
+
+namespace scree::mesh {
+
+// Element types as Gmsh numbers them.
+enum class Kind { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5 };
+
+struct Cell {
+  Kind kind;
+  std::vector<int> nodes;  // counted from 1
+};
+
+using Points = std::vector<std::array<double, 3>>;
+
+// MSH 4.1 in text. Nodes and elements are numbered from 1.
+std::string msh_text(const Points& points, const std::vector<Cell>& cells);
+
+// The eight corners of a unit cube at `low`, and its surface in twelve triangles that face outwards.
+Points cube_points(double low = 0);
+std::vector<Cell> cube_triangles(int first_node = 1);
+
+// A 1 x 2 x 3 box of tetrahedra about 0.5 long (.msh) or its surface (.stl), written by Gmsh.
+void write_box(const std::filesystem::path& file, bool binary);
+
+// A test with a directory of its own, gone afterwards.
+class MeshFileTest : public testing::Test {
+ protected:
+  MeshFileTest();
+  ~MeshFileTest() override;
+
+  // Writes `text` to a file and gives the body made of it.
+  BodySpec body_with(const std::string& name, const std::string& text, double mesh_size = 1);
+  // The text that refuses such a body, without the place, the key and the path it begins with.
+  template <int dim = 3>
+  std::string refusal(const std::string& name, const std::string& text, double mesh_size = 1);
+
+  std::filesystem::path directory_;
+};
+
+}  // namespace scree::mesh
