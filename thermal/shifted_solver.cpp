@@ -25,8 +25,8 @@ struct ShiftedSolver::Factor {
   Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky;
 };
 
-ShiftedSolver::ShiftedSolver(Eigen::VectorXd capacity, SparseMatrix conductance)
-    : capacity_(std::move(capacity)), conductance_(std::move(conductance)), factor_(std::make_unique<Factor>()) {
+ShiftedSolver::ShiftedSolver(Eigen::VectorXd capacity, const SparseMatrix& conductance)
+    : capacity_(std::move(capacity)), conductance_(conductance), factor_(std::make_unique<Factor>()) {
   if (capacity_.size() == 0) return;
   use_one_blas_thread();
   factor_->cholesky.cholmod().print = 0;  // failures are ours to report

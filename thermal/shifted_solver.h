@@ -13,7 +13,7 @@ namespace scree::thermal {
 class ShiftedSolver {
  public:
   // C as its diagonal [J/K]; K by its lower triangle, with every diagonal entry present [W/K].
-  ShiftedSolver(Eigen::VectorXd capacity, SparseMatrix conductance);
+  ShiftedSolver(Eigen::VectorXd capacity, const SparseMatrix& conductance);
   ~ShiftedSolver();
 
   // Factorises C + shift K unless that is the matrix it has; shift in seconds. Throws RunError if it is not positive definite.

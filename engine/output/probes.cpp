@@ -150,6 +150,7 @@ double value_at(const Probe<dim>& probe, const mesh::BlockMesh<dim>& mesh, const
 template <int dim>
 std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh) {
   std::vector<std::string> lines;
+  lines.reserve(probes.size());
   for (const Probe<dim>& probe : probes) {
     lines.push_back(fmt::format("{}: block {} of {} at {} m{}", probe.name, probe.block.value(),
                                 mesh.bodies[mesh.blocks[probe.block].body].name, coordinates<dim>(probe.point),

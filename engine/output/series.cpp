@@ -88,7 +88,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Grid& grid, const Frame& frame
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkTypeInt32Array> offsets;
   const std::size_t count = grid.connectivity.size() / cell.corners;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(count + 1));
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
   for (std::size_t i = 0; i <= count; ++i) {
     offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cell.corners));
   }

@@ -72,8 +72,8 @@ PlacedPiece placed(const mesh::ConvexPiece& piece, const Pose& pose) {
   PlacedPiece result{&piece, {}, {}};
   result.vertices.reserve(piece.vertices.size());
   result.normals.reserve(piece.faces.size());
-  for (const Vector3d& vertex : piece.vertices) result.vertices.push_back(rotation * vertex + pose.translation);
-  for (const auto& face : piece.faces) result.normals.push_back(rotation * face.normal);
+  for (const Vector3d& vertex : piece.vertices) result.vertices.emplace_back(rotation * vertex + pose.translation);
+  for (const auto& face : piece.faces) result.normals.emplace_back(rotation * face.normal);
   return result;
 }
 

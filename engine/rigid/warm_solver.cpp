@@ -12,6 +12,7 @@ void apply(btSolverBody& body, const btVector3& normal, const btVector3& angular
 
 }  // namespace
 
+// The parameters are Bullet's. NOLINTNEXTLINE(readability-function-size)
 btScalar WarmSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
                                                   int manifold_count, btTypedConstraint** constraints, int constraint_count,
                                                   const btContactSolverInfo& info, btIDebugDraw* draw) {
