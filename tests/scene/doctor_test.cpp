@@ -1,0 +1,132 @@
+#include "tools/scene/doctor.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "engine/mesh/make_blocks.h"
+#include "tests/scene/scene_text.h"
+
+namespace scree {
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+template <int dim = 3>
+CheckReport report_of(const std::string& yaml) {
+  const Scene scene = test::scene_of(yaml);
+  return check_scene(scene, mesh::make_blocks<dim>(scene.bodies));
+}
+
+const std::string heat = "heat: {initial: 300, until: 1}\noutput: {every: 1, probes: {p: [0, 0, 0.5]}}\n";
+
+// Unit cubes of one material with their centres at given places; those listed first are fixed.
+std::string cubes(const std::vector<std::string>& fixed, const std::vector<std::string>& free) {
+  std::string text = "materials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies:\n";
+  int number = 0;
+  const auto add = [&](const std::string& centre, bool is_fixed) {
+    text += fmt::format("  c{}: {{box: {{size: [1, 1, 1], centre: {}}}, material: a, mesh_size: 1, fixed: {}}}\n", number++,
+                        centre, is_fixed);
+  };
+  for (const auto& centre : fixed) add(centre, true);
+  for (const auto& centre : free) add(centre, false);
+  return text;
+}
+
+TEST(Doctor, ASoundSceneIsNotSuspected) {
+  const CheckReport report = report_of(cubes({"[0, 0, 0]"}, {"[0, 0, 1.5]"}) + "settle:\n");
+  EXPECT_THAT(report.suspicious, IsEmpty());
+  EXPECT_THAT(to_text(report), HasSubstr("nothing is suspicious"));
+}
+
+TEST(Doctor, CountsAddUp) {
+  const Scene scene = test::scene_of(cubes({"[0, 0, 0]"}, {"[0, 0, 1.5]"}), {"bodies.c1.blocks=per_element"});
+  const auto blocks = mesh::make_blocks<3>(scene.bodies);
+  const CheckReport report = check_scene(scene, blocks);
+  ASSERT_EQ(report.bodies.size(), 2u);
+  EXPECT_EQ(report.bodies[0].blocks, 1u);
+  EXPECT_EQ(report.bodies[1].blocks, report.bodies[1].elements);
+  EXPECT_EQ(report.bodies[1].nodes, 4 * report.bodies[1].elements);
+  EXPECT_EQ(report.bodies[0].nodes + report.bodies[1].nodes, blocks.nodes.size());
+  EXPECT_EQ(report.bodies[0].elements + report.bodies[1].elements, blocks.elements.size());
+}
+
+TEST(Doctor, TellsWhatIsModelledAndWhyNot) {
+  const auto modelled = [](const std::string& yaml) {
+    std::vector<std::string> names;
+    for (const Model& model : models_of(test::scene_of(yaml))) {
+      if (model.modelled) names.push_back(model.name);
+      EXPECT_FALSE(model.reason.empty());
+    }
+    return names;
+  };
+  EXPECT_THAT(modelled(test::whole_scene),
+              ElementsAre("motion", "conduction in blocks", "heat through contacts", "boundaries", "sources"));
+  EXPECT_THAT(modelled(cubes({}, {"[0, 0, 0]"}) + heat), ElementsAre("conduction in blocks", "heat through contacts"));
+  EXPECT_THAT(modelled(cubes({}, {"[0, 0, 0]"})), IsEmpty());
+}
+
+TEST(Doctor, FindsBodiesThatOverlap) {
+  EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[0.2, 0.1, 0.9]"}) + "settle:\n").suspicious,
+              ElementsAre("block 0 of body c0 and block 1 of body c1 overlap by 0.1 m before anything moves"));
+  EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[0.2, 0.1, 1]"}) + "settle:\n").suspicious, IsEmpty());
+}
+
+TEST(Doctor, FindsBodiesThatOverlapInThePlane) {
+  const auto squares = [](const std::string& second) {
+    return "dimension: 2\nmaterials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies:\n"
+           "  c0: {box: {size: [1, 1], centre: [0, 0]}, material: a, mesh_size: 0.5}\n"
+           "  c1: {box: {size: [1, 1], centre: " +
+           second + "}, material: a, mesh_size: 0.5}\nheat: {initial: 300, until: 1}\noutput: {every: 1}\n";
+  };
+  EXPECT_THAT(report_of<2>(squares("[0.9, 0.3]")).suspicious,
+              testing::Contains("block 0 of body c0 and block 1 of body c1 overlap before anything moves"));
+  EXPECT_THAT(report_of<2>(squares("[1, 0.3]")).suspicious, IsEmpty());
+}
+
+TEST(Doctor, FindsWhatNothingCanStop) {
+  EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[3, 0, 1.5]"}) + "settle:\n").suspicious,
+              ElementsAre("nothing fixed lies below 1 of 1 blocks of body c1: they may fall forever"));
+  // Gravity along x: the cube beside is now above.
+  EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[3, 0, 0.5]"}) + "settle: {gravity: [-9.81, 0, 0]}\n").suspicious, IsEmpty());
+  EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[0, 0, 1.5]"}) + "settle: {gravity: [0, 0, 1]}\n").suspicious,
+              ElementsAre(HasSubstr("nothing fixed lies below")));
+}
+
+TEST(Doctor, FindsBlocksThatTouchNothing) {
+  EXPECT_THAT(report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1]", "[5, 0, 0]"}) + heat).suspicious,
+              ElementsAre("1 of 1 blocks of body c2 touch nothing: no heat passes to or from them"));
+}
+
+TEST(Doctor, FindsProbesInVoids) {
+  const auto found = report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1]"}) + "heat: {initial: 300, until: 1}\n" +
+                               "output: {every: 1, probes: {in: [0, 0, 0.2], out: [4, 0, 0]}}\n")
+                         .suspicious;
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found.front(), HasSubstr("out"));
+}
+
+TEST(Doctor, FindsWhatIsNotUsed) {
+  const std::string two =
+      "materials: {a: {}, b: {}}\nbodies:\n  c: {box: {size: [1, 1, 1], centre: [0, 0, 0]}, material: a, mesh_size: "
+      "1, fixed: true}\n  d: {box: {size: [1, 1, 1], centre: [3, 0, 0]}, material: a, mesh_size: 1}\n";
+  EXPECT_THAT(report_of(two).suspicious,
+              ElementsAre("no body is made of material b", "body d is free, but nothing moves without a settle section",
+                          "the scene has neither a settle nor a heat section: nothing happens"));
+}
+
+TEST(Doctor, FindsTemperaturesThatLackTheirUnit) {
+  const std::string scene = cubes({}, {"[0, 0, 0]"});
+  EXPECT_THAT(
+      report_of(scene + "heat: {initial: 25, until: 1, boundaries: [{body: c0, temperature: 100}]}\noutput: {every: 1}\n")
+          .suspicious,
+      ElementsAre("heat.initial is 25, which is in kelvin: write 25 degC if that is meant",
+                  "heat.boundaries[0].temperature is 100, which is in kelvin: write 100 degC if that is meant"));
+  EXPECT_THAT(report_of(scene + "heat: {initial: 77 K, until: 1}\noutput: {every: 1}\n").suspicious, IsEmpty());
+}
+
+}  // namespace
+
+}  // namespace scree

@@ -1,0 +1,81 @@
+#include "tools/scene/suspicions.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "engine/base/input.h"
+#include "engine/base/units.h"
+
+namespace scree {
+
+namespace {
+
+// Appends a sentence if `text` is a number without a unit that would be very cold in kelvin.
+void judge_temperature(const InputValue& value, const std::string& key, Sentences& sentences) {
+  constexpr double coldest_usual = 200;  // [K]; rock, ore and soil are warmer, and most temperatures in degC are below
+  const auto parsed = parse_quantity(value.text, quantity::temperature);
+  const double* kelvin = std::get_if<double>(&parsed);
+  const bool bare =
+      !value.text.empty() && (std::isdigit(static_cast<unsigned char>(value.text.back())) || value.text.back() == '.');
+  if (kelvin == nullptr || !bare || *kelvin >= coldest_usual) return;
+  sentences.push_back(fmt::format("{} is {}, which is in kelvin: write {} degC if that is meant", key, value.text, value.text));
+}
+
+}  // namespace
+
+Sentences unused_materials(const Scene& scene) {
+  Sentences sentences;
+  for (const MaterialId material : scene.materials.ids()) {
+    const bool used = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                  [&](const mesh::BodySpec& body) { return body.material == material; });
+    if (!used) sentences.push_back(fmt::format("no body is made of material {}", scene.materials[material].name));
+  }
+  return sentences;
+}
+
+Sentences free_without_motion(const Scene& scene) {
+  Sentences sentences;
+  if (scene.settle || scene.packing) return sentences;
+  const bool some_fixed = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) { return body.fixed; });
+  for (const mesh::BodySpec& body : scene.bodies) {
+    const bool moving = body.velocity.norm() > 0;
+    if (!moving && (body.fixed || !some_fixed)) continue;
+    sentences.push_back(fmt::format("body {} is free{}, but nothing moves without a settle section", body.name,
+                                    moving ? " and has a velocity" : ""));
+  }
+  return sentences;
+}
+
+// The effective scene still has the temperatures as they were written.
+Sentences cold_bare_temperatures(const Scene& scene) {
+  Sentences sentences;
+  const InputValue root = parse_yaml(scene.effective, scene.file.string());
+  const InputValue* heat = root.find("heat");
+  if (heat == nullptr) return sentences;
+  const InputValue& initial = *heat->find("initial");
+  judge_temperature(initial, "heat.initial", sentences);
+  for (const InputEntry& entry : initial.entries) judge_temperature(entry.value, "heat.initial." + entry.name, sentences);
+  const std::vector<InputValue>& boundaries = heat->find("boundaries")->items;
+  for (std::size_t i = 0; i < boundaries.size(); ++i) {
+    const InputValue* temperature = boundaries[i].find("temperature");
+    if (temperature != nullptr) judge_temperature(*temperature, fmt::format("heat.boundaries[{}].temperature", i), sentences);
+  }
+  return sentences;
+}
+
+template <int dim>
+Sentences probes_in_voids(const mesh::BlockMesh<dim>& mesh, const std::vector<output::ProbeSpec>& probes) {
+  Sentences sentences;
+  try {
+    output::locate_probes(mesh, probes);
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) sentences.push_back(to_string(problem));
+  }
+  return sentences;
+}
+template Sentences probes_in_voids(const mesh::BlockMesh<2>&, const std::vector<output::ProbeSpec>&);
+template Sentences probes_in_voids(const mesh::BlockMesh<3>&, const std::vector<output::ProbeSpec>&);
+
+}  // namespace scree

@@ -1,0 +1,37 @@
+// What is allowed in a scene, and yet seldom meant. Each returns sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/mesh/block_mesh.h"
+#include "tools/scene/scene.h"
+
+namespace scree {
+
+using Sentences = std::vector<std::string>;
+
+Sentences unused_materials(const Scene& scene);
+
+// Something is held fixed and something is not, and nothing moves.
+Sentences free_without_motion(const Scene& scene);
+
+// A bare number of 25 for a temperature is 25 K.
+Sentences cold_bare_temperatures(const Scene& scene);
+
+// Blocks of different bodies that lie in each other before anything moves.
+template <int dim>
+Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh);
+
+// Free blocks with no fixed block below them, as gravity goes.
+Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity);
+
+// Blocks that no heat can reach through a contact.
+template <int dim>
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options);
+
+// Probes that no block holds.
+template <int dim>
+Sentences probes_in_voids(const mesh::BlockMesh<dim>& mesh, const std::vector<output::ProbeSpec>& probes);
+
+}  // namespace scree
