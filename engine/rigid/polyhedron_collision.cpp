@@ -31,10 +31,13 @@ void place(const PolyhedronShape& shape, const btTransform& pose, PlacedPiece& p
   for (const auto& face : shape.piece().faces) placed.normals.push_back(rotation * face.normal);
 }
 
-// No point of `object` moves faster than this [m/s].
-double fastest_point(const btCollisionObject& object, double radius) {
-  const btRigidBody* body = btRigidBody::upcast(&object);
-  return body->getLinearVelocity().length() + radius * body->getAngularVelocity().length();
+// No two points of the pair approach each other faster than this [m/s].
+double fastest_approach(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second) {
+  const auto& a = *btRigidBody::upcast(first.getCollisionObject());
+  const auto& b = *btRigidBody::upcast(second.getCollisionObject());
+  return (a.getLinearVelocity() - b.getLinearVelocity()).length() +
+         static_cast<const PolyhedronShape&>(*first.getCollisionShape()).radius() * a.getAngularVelocity().length() +
+         static_cast<const PolyhedronShape&>(*second.getCollisionShape()).radius() * b.getAngularVelocity().length();
 }
 
 double difference(const btMatrix3x3& a, const btMatrix3x3& b) {
@@ -70,7 +73,7 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative) const;
   void evaluate(const Pair& pair);
   void write_points(const Pair& pair, const ContactPoints& contact);
-  [[nodiscard]] double bounce_distance(const Pair& pair, const ContactPoint& at) const;
+  void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
   void move_points(const Pair& pair);
   void drop_manifold();
@@ -86,11 +89,8 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
 
 void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                                            const btDispatcherInfo& info, btManifoldResult* result) {
-  const auto& a = static_cast<const PolyhedronShape&>(*first->getCollisionShape());
-  const auto& b = static_cast<const PolyhedronShape&>(*second->getCollisionShape());
-  const double approach =
-      fastest_point(*first->getCollisionObject(), a.radius()) + fastest_point(*second->getCollisionObject(), b.radius());
-  const Pair pair{first, second, ranges_.near + approach * info.m_timeStep, info.m_timeStep};
+  const double reach = ranges_.near + fastest_approach(*first, *second) * info.m_timeStep;
+  const Pair pair{first, second, reach, info.m_timeStep};
   const btTransform relative = first->getWorldTransform().inverseTimes(second->getWorldTransform());
   if (still_valid(pair, relative)) {
     if (manifold_ != nullptr) move_points(pair);
@@ -152,26 +152,29 @@ void PolyhedronCollision::write_points(const Pair& pair, const ContactPoints& co
     point = btManifoldPoint(first->getWorldTransform().invXform(to_bullet(at.on_first)),
                             second->getWorldTransform().invXform(to_bullet(at.on_second)), btVector3(0, 0, 0), at.distance);
     point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
-    point.m_distance1 = bounce_distance(pair, at);
     point.m_combinedFriction = std::min(first->getFriction(), second->getFriction());
-    point.m_combinedRestitution = std::min(first->getRestitution(), second->getRestitution());
+    set_bounce(pair, point, at);
   }
   inherit_impulses(old, old_count, 0.05 * static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius());
   move_points(pair);
 }
 
-// Bullet lets a pair close its gap within the step and takes that from the rebound. A point that is going to bounce in this
-// step is therefore said to touch already, so that it leaves with exactly the speed its restitution asks for.
-double PolyhedronCollision::bounce_distance(const Pair& pair, const ContactPoint& at) const {
+// Bullet lets a pair close its gap within the step and takes that from the rebound, and lets a pair rebound that will not touch
+// yet. A point that is going to bounce in this step is therefore said to touch already, so that it leaves with exactly the
+// speed its restitution asks for, and one that is not has no restitution.
+void PolyhedronCollision::set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const {
   const btCollisionObject* first = pair.first->getCollisionObject();
   const btCollisionObject* second = pair.second->getCollisionObject();
-  if (at.distance <= 0 || std::min(first->getRestitution(), second->getRestitution()) <= 0) return at.distance;
-  const auto velocity = [](const btCollisionObject* object, const Eigen::Vector3d& point) {
-    return from_bullet(
-        btRigidBody::upcast(object)->getVelocityInLocalPoint(to_bullet(point) - object->getWorldTransform().getOrigin()));
+  const double restitution = std::min(first->getRestitution(), second->getRestitution());
+  if (restitution <= 0) return;
+  const auto velocity = [](const btCollisionObject* object, const Eigen::Vector3d& point_of) {
+    const btVector3 arm = to_bullet(point_of) - object->getWorldTransform().getOrigin();
+    return from_bullet(btRigidBody::upcast(object)->getVelocityInLocalPoint(arm));
   };
   const double approach = separation_.normal.dot(velocity(first, at.on_first) - velocity(second, at.on_second));
-  return approach > ranges_.bounce_speed && at.distance < approach * pair.time_step ? 0.0 : at.distance;
+  if (approach <= ranges_.bounce_speed || at.distance > approach * pair.time_step) return;
+  point.m_distance1 = std::min(at.distance, 0.0);
+  point.m_combinedRestitution = restitution;
 }
 
 // Each new point takes the impulses of the nearest old one that no nearer point took.

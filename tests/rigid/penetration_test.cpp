@@ -1,0 +1,163 @@
+#include "engine/packing/penetration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "engine/packing/separation.h"
+#include "tests/rigid/blocks.h"
+
+namespace scree::packing {
+namespace {
+
+using Eigen::Vector3d;
+using rigid::testing::add_box;
+using rigid::testing::add_tetrahedron;
+
+double largest(const PlacedPiece& a, const Vector3d& axis, double sign) {
+  double best = -1e300;
+  for (const Vector3d& v : a.vertices) best = std::max(best, sign * axis.dot(v));
+  return best;
+}
+
+// All axes, projecting every vertex: face normals and every cross product of two edges.
+double brute_force(const PlacedPiece& a, const PlacedPiece& b) {
+  std::vector<Vector3d> axes = a.normals;
+  axes.insert(axes.end(), b.normals.begin(), b.normals.end());
+  for (const auto& e : a.piece->edges) {
+    for (const auto& f : b.piece->edges) {
+      const Vector3d axis =
+          (a.vertices[e.corners[1]] - a.vertices[e.corners[0]]).cross(b.vertices[f.corners[1]] - b.vertices[f.corners[0]]);
+      if (axis.norm() > 1e-12) axes.push_back(axis.normalized());
+    }
+  }
+  double best = -1e300;
+  for (const Vector3d& axis : axes) {
+    best = std::max(best, -largest(b, axis, -1) - largest(a, axis, 1));
+    best = std::max(best, -largest(a, axis, -1) - largest(b, axis, 1));
+  }
+  return best;
+}
+
+mesh::ConvexPiece random_tetrahedron(std::mt19937& random) {
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  mesh::BlockMesh<3> mesh;
+  std::array<Vector3d, 4> corners;
+  do {
+    for (Vector3d& corner : corners) corner = Vector3d(coordinate(random), coordinate(random), coordinate(random));
+  } while ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) < 0.1);
+  return mesh::convex_pieces(mesh, add_tetrahedron(mesh, corners)).front();
+}
+
+TEST(Separation, OfRandomPiecesIsThatOfEveryAxisTried) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  mesh::BlockMesh<3> boxes;
+  const mesh::ConvexPiece box = mesh::convex_pieces(boxes, add_box(boxes, {1, 0.7, 0.4}, Vector3d(0, 0, 0), false)).front();
+  int overlapping = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const mesh::ConvexPiece first = i % 2 == 0 ? box : random_tetrahedron(random);
+    const mesh::ConvexPiece second = random_tetrahedron(random);
+    Eigen::Quaterniond turn(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
+    const Pose pose{Vector3d(coordinate(random), coordinate(random), coordinate(random)), turn.normalized()};
+    const PlacedPiece a = placed(first, Pose{});
+    const PlacedPiece b = placed(second, pose);
+    const double expected = brute_force(a, b);
+    const double found = separation(a, b, 1e300).distance;
+    overlapping += expected < 0;
+    if (expected < 0) {
+      EXPECT_NEAR(found, expected, 1e-9) << i;
+    } else {
+      EXPECT_GT(found, 0) << i;
+      EXPECT_LE(found, expected + 1e-9) << i;
+    }
+  }
+  EXPECT_GT(overlapping, 400);
+  EXPECT_LT(overlapping, 1900);
+}
+
+TEST(Separation, MovingApartByItEndsTheOverlap) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 200; ++i) {
+    const mesh::ConvexPiece first = random_tetrahedron(random);
+    const mesh::ConvexPiece second = random_tetrahedron(random);
+    const PlacedPiece a = placed(first, Pose{});
+    const Separation s = separation(a, placed(second, Pose{}), 1e300);
+    if (s.distance >= 0) continue;
+    const Pose away{-s.distance * s.normal, Eigen::Quaterniond::Identity()};
+    EXPECT_NEAR(separation(a, placed(second, away), 1e300).distance, 0, 1e-9);
+    EXPECT_NEAR(separation_along(a, placed(second, away), s), 0, 1e-9);
+  }
+}
+
+TEST(ConvexPieces, ABoxOfTetrahedraIsOnePieceOfSixFaces) {
+  mesh::BlockMesh<3> mesh;
+  const auto pieces = mesh::convex_pieces(mesh, add_box(mesh, {1, 2, 3}, Vector3d(5, 5, 5), false));
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].vertices.size(), 8U);
+  EXPECT_EQ(pieces[0].faces.size(), 6U);
+  EXPECT_EQ(pieces[0].edges.size(), 12U);
+  for (const auto& face : pieces[0].faces) {
+    ASSERT_EQ(face.corners.size(), 4U);
+    for (const auto& vertex : pieces[0].vertices)
+      EXPECT_LE(face.normal.dot(vertex - pieces[0].vertices[face.corners[0]]), 1e-12);
+  }
+}
+
+TEST(ConvexPieces, ABlockWithAnIndentedEdgeIsItsElements) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {1, 1, 1}, Vector3d(0, 0, 0), false);
+  mesh.nodes[NodeId{7}] = Vector3d(0.2, 0.2, 0.2);  // one corner pushed in
+  EXPECT_EQ(mesh::convex_pieces(mesh, BlockId{0}).size(), 6U);
+}
+
+TEST(ConvexPieces, TwoLooseBoxesInOneBlockAreNotConvex) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {1, 1, 1}, Vector3d(0, 0, 0), false);
+  add_box(mesh, {1, 1, 1}, Vector3d(3, 0, 0), false);
+  mesh.blocks = Table<BlockId, mesh::Block>();
+  const BlockId both = mesh.blocks.push_back({BodyId{0}, {0, 16}, {0, 12}});
+  EXPECT_EQ(mesh::convex_pieces(mesh, both).size(), 12U);
+}
+
+TEST(Penetration, OfBoxesIsTheOverlapOfTheirSides) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {1, 1, 1}, Vector3d(0, 0, 0), true);
+  add_box(mesh, {1, 1, 1}, Vector3d(0.99, 0.2, 0.1), false);   // 0.01 into the first
+  add_box(mesh, {1, 1, 1}, Vector3d(-0.2, 0, 1.0005), false);  // touches the first within the range
+  add_box(mesh, {1, 1, 1}, Vector3d(0, -1.5, 0), false);       // alone
+  add_box(mesh, {1, 1, 1}, Vector3d(-0.5, 0, 0), true);        // fixed in the fixed one: nobody's business
+  const Penetration p = measure_penetration(mesh, 1e-3);
+  EXPECT_NEAR(p.max, 0.01, 1e-12);
+  EXPECT_EQ(p.first, BlockId{0});
+  EXPECT_EQ(p.second, BlockId{1});
+  EXPECT_EQ(p.touching, 3U);  // 0-1, 0-2, 4-2
+  EXPECT_NEAR(p.mean, 0.01 / 3, 1e-12);
+}
+
+TEST(Penetration, OfCrossedEdgesIsTheirDepth) {
+  // Two bars turned by 45 degrees about their axes, crossing at right angles, edge on edge.
+  mesh::BlockMesh<3> mesh;
+  const Eigen::AngleAxisd edge_up_x(M_PI / 4, Vector3d::UnitX());
+  const Eigen::AngleAxisd edge_up_y(M_PI / 4, Vector3d::UnitY());
+  const double half_diagonal = std::sqrt(0.5);
+  add_box(mesh, {9, 1, 1}, Pose{Vector3d::Zero(), Eigen::Quaterniond(edge_up_x)}, true);
+  add_box(mesh, {1, 9, 1}, Pose{Vector3d(0, 0, 2 * half_diagonal - 0.03), Eigen::Quaterniond(edge_up_y)}, false);
+  EXPECT_NEAR(measure_penetration(mesh, 1e-3).max, 0.03, 1e-12);
+}
+
+TEST(Penetration, OfTheElementsOfAMeshIsNothing) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {1, 1, 1}, Vector3d(0, 0, 0), false);
+  mesh::BlockMesh<3> broken;
+  for (const auto& element : mesh.elements) {
+    add_tetrahedron(broken, {mesh.nodes[element[0]], mesh.nodes[element[1]], mesh.nodes[element[2]], mesh.nodes[element[3]]});
+  }
+  const Penetration p = measure_penetration(broken, 1e-3);
+  EXPECT_EQ(p.touching, 15U);  // all share the diagonal
+  EXPECT_LT(p.max, 1e-12);
+}
+
+}  // namespace
+}  // namespace scree::packing
