@@ -26,10 +26,8 @@ Eigen::Vector3d reduced(Eigen::Vector3d value, const Eigen::Vector3d& change) {
 }  // namespace
 
 Damping::Damping(const World& world, const Eigen::Vector3d& gravity) {
-  std::size_t blocks = 0;
-  for (const BlockId block : world.free_blocks()) blocks = std::max(blocks, block.index() + 1);
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  motions_.assign(blocks, {zero, zero, gravity, zero});
+  motions_.assign(world.block_count(), {zero, zero, gravity, zero});
 }
 
 void Damping::slow_down(const World& world, double local, double viscous, double time_step) {

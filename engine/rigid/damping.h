@@ -34,7 +34,7 @@ class Damping {
     Eigen::Vector3d acceleration;  // net force over mass [m/s2]
     Eigen::Vector3d angular;       // net torque over inertia, principal axes [rad/s2]
   };
-  std::vector<Motion> motions_;  // one per block ever free, by block index
+  std::vector<Motion> motions_;  // by block index
 };
 
 }  // namespace scree::rigid

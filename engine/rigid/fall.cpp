@@ -45,7 +45,7 @@ std::int64_t skip_free_fall(World& world, const mesh::BlockMesh<3>& mesh, const 
                             const std::function<void(std::int64_t)>& after_step) {
   const std::optional<Eigen::Vector3d> start = common_velocity(mesh);
   // Local damping acts on each component against its own direction: a throw has no closed form.
-  if (!start || (options.local_damping > 0 && !start->isZero())) return 0;
+  if (!start || options.release_time > 0 || (options.local_damping > 0 && !start->isZero())) return 0;
   Aabb<3> moving;
   Aabb<3> scene;
   std::vector<Aabb<3>> fixed;

@@ -36,6 +36,7 @@ void check(const SettleOptions& options) {
   require(options.limit >= 0, "limit", options.limit, "not negative, s");
   require(options.frame_interval > 0, "frame_interval", options.frame_interval, "positive, s");
   require(options.rest_window > 0, "rest_window", options.rest_window, "positive, s");
+  require(options.release_time >= 0, "release_time", options.release_time, "not negative, s");
   require(options.iterations > 0, "iterations", options.iterations, "positive");
   require(options.local_damping >= 0 && options.local_damping < 1, "local_damping", options.local_damping, "in [0, 1)");
   require(options.viscous_damping >= 0 && options.viscous_damping * options.step <= 1, "viscous_damping",
@@ -100,6 +101,10 @@ class Settling {
 };
 
 Motion Settling::advance(double viscous) {
+  if (world_.hanging() > 0) {
+    const double blocks = static_cast<double>(world_.movable());
+    world_.release(static_cast<std::size_t>(std::min(1.0, time() / options_.release_time) * blocks) + 1);
+  }
   damping_.slow_down(world_, options_.local_damping, viscous, options_.step);
   world_.step(options_.step, options_.iterations);
   damping_.observe(world_, options_.step);
@@ -122,7 +127,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     motion = advance(viscous);
     if (progress) progress(time(), motion.rms_speed);
     frames.offer(world_, time());
-    if (!watch.observe(world_, motion, time())) continue;
+    if (!watch.observe(world_, motion, time()) || world_.hanging() > 0) continue;
     report.at_rest = viscous == 0;
     viscous = 0;
   }

@@ -16,6 +16,9 @@ struct SettleOptions {
   // Drag, per mass [1/s]: a block falls no faster than gravity over this. It is taken away once the pile is at rest under it,
   // and the pile must then be at rest without it. At most 1 / step.
   double viscous_damping = 0;
+  // Blocks are let go one by one, the lowest first, evenly over this time [s]; the others hang where they were meshed, and
+  // touch nothing, until it is their turn. 0 lets all of them go at once.
+  double release_time = 0;
   double rest_speed = 1e-3;             // root mean square speed below which a pile may be at rest [m/s]
   double rest_unbalanced_force = 0.05;  // largest accepted unbalanced force [-]
   double rest_displacement = 0.01;      // largest accepted way of any block in a window, over the mean edge [-]
@@ -23,7 +26,7 @@ struct SettleOptions {
   // Of the contact solver in each step. Too few, and a stack sways on it: five cubes need 80. A pile of thousands of small
   // blocks does with 20 (README.md).
   int iterations = 80;
-  double frame_interval = 0.02;         // between frames given to the sink [s]
+  double frame_interval = 0.02;  // between frames given to the sink [s]
 };
 
 // Receives the poses as the pile falls: simulated time [s], one pose per block.

@@ -145,11 +145,30 @@ World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& 
     item.body = std::make_unique<btRigidBody>(info);
     // Rest is a matter of speed and forces; a body is never put to sleep.
     item.body->setActivationState(DISABLE_DEACTIVATION);
-    bullet_->world.addRigidBody(item.body.get());
-    if (owner.fixed) continue;
-    item.body->setLinearVelocity(to_bullet(owner.velocity));
+    if (owner.fixed) {
+      bullet_->world.addRigidBody(item.body.get());
+    } else {
+      item.body->setLinearVelocity(to_bullet(owner.velocity));
+      order_.push_back(block);
+    }
+  }
+  if (options.release_time > 0) {
+    const btVector3 down = to_bullet(options.gravity);
+    std::stable_sort(order_.begin(), order_.end(), [&](BlockId a, BlockId b) {
+      return items_[a.index()].body->getCenterOfMassPosition().dot(down) >
+             items_[b.index()].body->getCenterOfMassPosition().dot(down);
+    });
+  } else {
+    release(order_.size());
+  }
+}
+
+void World::release(std::size_t count) {
+  for (; released_ < std::min(count, order_.size()); ++released_) {
+    const BlockId block = order_[released_];
     free_.push_back(block);
-    free_bodies_.push_back(item.body.get());
+    free_bodies_.push_back(items_[block.index()].body.get());
+    bullet_->world.addRigidBody(free_bodies_.back());
   }
 }
 
@@ -160,6 +179,10 @@ World::~World() {
 void World::step(double time_step, int iterations) {
   bullet_->world.getSolverInfo().m_numIterations = iterations;
   bullet_->world.stepSimulation(time_step, 0);
+}
+
+std::size_t World::block_count() const {
+  return items_.size();
 }
 
 double World::radius(BlockId block) const {

@@ -22,7 +22,13 @@ class World {
   // One step of collision detection, contact solution and integration.
   void step(double time_step, int iterations);
 
-  // The free blocks still in the scene, and their bodies in the same order.
+  // Lets go the lowest of the blocks that still hang, until `count` were let go in all.
+  void release(std::size_t count);
+  [[nodiscard]] std::size_t hanging() const { return order_.size() - released_; }
+  [[nodiscard]] std::size_t movable() const { return order_.size(); }  // whether let go or not
+  [[nodiscard]] std::size_t block_count() const;
+
+  // The free blocks that were let go and are still in the scene, and their bodies in the same order.
   [[nodiscard]] const std::vector<BlockId>& free_blocks() const { return free_; }
   [[nodiscard]] const std::vector<btRigidBody*>& free_bodies() const { return free_bodies_; }
   [[nodiscard]] double radius(BlockId block) const;  // of the smallest sphere about its centre that holds it [m]
@@ -40,7 +46,9 @@ class World {
   struct Bullet;
   struct Item;
   std::unique_ptr<Bullet> bullet_;
-  std::vector<Item> items_;  // one per block
+  std::vector<Item> items_;     // one per block
+  std::vector<BlockId> order_;  // in which the free blocks are let go
+  std::size_t released_ = 0;
   std::vector<BlockId> free_;
   std::vector<btRigidBody*> free_bodies_;
 };

@@ -263,6 +263,22 @@ TEST(Settle, ABlockOfManyElementsThatIsNotConvexRestsOnItsFeet) {
   EXPECT_NEAR(packing.settled->top, 0.15, 1e-4);
 }
 
+TEST(Settle, HangingBlocksWaitForTheirTurn) {
+  mesh::BlockMesh<3> mesh = plate();
+  add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.9}, false);
+  add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.5}, false);
+  SettleOptions options;
+  options.release_time = 1;
+  double last_hung = 0;
+  const auto packing = settle(mesh, material(0.6), options, [&](double time, const Table<BlockId, Pose>& poses) {
+    if (poses[BlockId{1}].translation.z() == 0) last_hung = time;
+    EXPECT_TRUE(time == 0 || poses[BlockId{2}].translation.z() < 0) << time;
+  });
+  EXPECT_NEAR(last_hung, 1.0 / 2, 0.03);
+  EXPECT_TRUE(packing.settled->at_rest);
+  EXPECT_NEAR(packing.settled->top, 0.2, 1e-4);
+}
+
 TEST(Settle, TheFramesBeginAtZeroAndEndAtTheEnd) {
   mesh::BlockMesh<3> mesh = plate();
   add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.25}, false);
