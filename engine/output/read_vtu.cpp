@@ -1,0 +1,99 @@
+#include "engine/output/read_vtu.h"
+
+#include <stdexcept>
+#include <string>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCellTypes.h>
+#include <vtkCommand.h>
+#include <vtkExecutive.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+namespace scree::output {
+
+namespace {
+
+// VTK tells its errors to observers; without one it prints them.
+void keep_first_error(vtkObject*, unsigned long, void* kept, void* message) {
+  auto& reason = *static_cast<std::string*>(kept);
+  if (!reason.empty() || message == nullptr) return;
+  reason = static_cast<const char*>(message);
+  // "ERROR: In FILE, line N\nCLASS (ADDRESS): WORDS\n\n"
+  if (const auto words = reason.find("): "); words != std::string::npos) reason.erase(0, words + 3);
+  while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
+}
+
+std::string kind_name(int type) {
+  const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
+  return name.starts_with("vtk") ? name.substr(3) : name;
+}
+
+template <int corners>
+mesh::RawCell<corners> cell_of(std::size_t number, const vtkIdType* nodes) {
+  mesh::RawCell<corners> cell{number, {}};
+  for (int i = 0; i < corners; ++i) cell.nodes[i] = static_cast<std::size_t>(nodes[i]);
+  return cell;
+}
+
+void add_cell(vtkUnstructuredGrid& grid, vtkIdType c, mesh::RawMesh& raw) {
+  vtkIdType size = 0;
+  const vtkIdType* nodes = nullptr;
+  grid.GetCellPoints(c, size, nodes);
+  for (vtkIdType i = 0; i < size; ++i) {
+    if (nodes[i] < 0 || nodes[i] >= grid.GetNumberOfPoints())
+      throw std::runtime_error("an element uses a point that is not there");
+  }
+  const auto number = static_cast<std::size_t>(c);
+  switch (const int type = grid.GetCellType(c); type) {
+    case VTK_TETRA:
+      raw.tetrahedra.push_back(cell_of<4>(number, nodes));
+      break;
+    case VTK_TRIANGLE:
+      raw.triangles.push_back(cell_of<3>(number, nodes));
+      break;
+    case VTK_VERTEX:
+    case VTK_LINE:
+      for (vtkIdType i = 0; i < size; ++i) raw.marked.push_back(static_cast<std::size_t>(nodes[i]));
+      break;
+    default:
+      ++raw.unusable[kind_name(type)];
+  }
+}
+
+}  // namespace
+
+mesh::RawMesh read_vtu(const std::filesystem::path& file) {
+  std::string reason;
+  vtkNew<vtkCallbackCommand> on_error;
+  on_error->SetCallback(keep_first_error);
+  on_error->SetClientData(&reason);
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->AddObserver(vtkCommand::ErrorEvent, on_error);
+  reader->AddObserver(vtkCommand::WarningEvent, on_error);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, on_error);
+  reader->SetParserErrorObserver(on_error);
+  reader->SetReaderErrorObserver(on_error);
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (!reason.empty()) throw std::runtime_error(reason);
+  if (reader->GetErrorCode() != 0) throw std::runtime_error("VTK cannot read it");
+  vtkUnstructuredGrid& grid = *reader->GetOutput();
+  mesh::RawMesh raw;
+  for (vtkIdType p = 0; p < grid.GetNumberOfPoints(); ++p) {
+    Eigen::Vector3d point;
+    grid.GetPoint(p, point.data());
+    raw.points.push_back(point);
+    raw.point_numbers.push_back(static_cast<std::size_t>(p));
+  }
+  for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) add_cell(grid, c, raw);
+  return raw;
+}
+
+mesh::MeshReaders mesh_readers() {
+  return {{".vtu", read_vtu}};
+}
+
+}  // namespace scree::output
