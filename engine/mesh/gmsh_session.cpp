@@ -66,14 +66,14 @@ void with_gmsh(const std::function<void()>& work) {
   }
 }
 
-void generate(int dimension, double mesh_size) {
+void generate(int dimension, double mesh_size, FaceMesher faces) {
   const auto set = [](const char* option, double value) { gmsh::option::setNumber(option, value); };
   set("Mesh.MeshSizeMin", mesh_size);
   set("Mesh.MeshSizeMax", mesh_size);
   set("Mesh.MeshSizeFromPoints", 0);
   set("Mesh.MeshSizeExtendFromBoundary", 0);
-  // Frontal-Delaunay faces and Delaunay inside. HXT (10) gives slightly better tetrahedra, but not the same ones twice.
-  set("Mesh.Algorithm", 6);
+  set("Mesh.Algorithm", static_cast<double>(faces));
+  // Delaunay. HXT (10) makes slightly better tetrahedra, but not the same ones twice.
   set("Mesh.Algorithm3D", 1);
   // The built-in optimiser works on tetrahedra below this quality; the figures behind 0.5 are in README.md.
   set("Mesh.Optimize", 1);

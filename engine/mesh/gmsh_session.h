@@ -16,8 +16,11 @@ struct GmshFailure {
 // Runs `work` in a fresh Gmsh; whatever Gmsh throws comes out as a GmshFailure.
 void with_gmsh(const std::function<void()>& work);
 
+// How Gmsh triangulates faces.
+enum class FaceMesher { mesh_adapt = 1, delaunay = 5, frontal_delaunay = 6 };
+
 // Makes the elements of the current model about `mesh_size` long and fills dimension `dimension` with them.
-void generate(int dimension, double mesh_size);
+void generate(int dimension, double mesh_size, FaceMesher faces = FaceMesher::frontal_delaunay);
 
 // The nodes and elements of the current model.
 RawMesh model_mesh();

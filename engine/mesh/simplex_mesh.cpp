@@ -1,5 +1,7 @@
 #include "engine/mesh/simplex_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <Eigen/LU>
@@ -20,6 +22,22 @@ double signed_volume(const std::array<Point<dim>, dim + 1>& corners) {
   Eigen::Matrix<double, dim, dim> edges;
   for (int i = 0; i < dim; ++i) edges.col(i) = corners[i + 1] - corners[0];
   return edges.determinant() / (dim == 2 ? 2.0 : 6.0);
+}
+
+template <int dim>
+double worst_quality(const SimplexMesh<dim>& mesh) {
+  double worst = 1;
+  for (const auto& element : mesh.elements) {
+    std::array<Point<dim>, dim + 1> corners;
+    for (std::size_t i = 0; i <= dim; ++i) corners[i] = mesh.nodes[element[i]];
+    double squares = 0;
+    for (std::size_t i = 0; i <= dim; ++i) {
+      for (std::size_t j = 0; j < i; ++j) squares += (corners[i] - corners[j]).squaredNorm();
+    }
+    const double volume = std::max(0.0, signed_volume<dim>(corners));
+    worst = std::min(worst, dim == 2 ? 4 * std::sqrt(3.0) * volume / squares : 12 * std::cbrt(9 * volume * volume) / squares);
+  }
+  return worst;
 }
 
 template <int dim>
@@ -52,6 +70,8 @@ SimplexMesh<dim> whole_of(const RawMesh& raw) {
 
 template double signed_volume<2>(const std::array<Point<2>, 3>&);
 template double signed_volume<3>(const std::array<Point<3>, 4>&);
+template double worst_quality<2>(const SimplexMesh<2>&);
+template double worst_quality<3>(const SimplexMesh<3>&);
 template SimplexMesh<2> part_of<2>(const RawMesh&, const std::vector<std::size_t>&);
 template SimplexMesh<3> part_of<3>(const RawMesh&, const std::vector<std::size_t>&);
 template SimplexMesh<2> whole_of<2>(const RawMesh&);

@@ -28,6 +28,10 @@ const std::vector<RawCell<dim + 1>>& element_cells(const RawMesh& raw);
 template <int dim>
 double signed_volume(const std::array<Point<dim>, dim + 1>& corners);
 
+// The lowest mean ratio of an element: 1 if all are regular, 0 if one is flat (Liu & Joe 1994).
+template <int dim>
+double worst_quality(const SimplexMesh<dim>& mesh);
+
 // The elements `chosen` of `raw` and the nodes they use, both in the order of `raw`.
 template <int dim>
 SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen);
