@@ -1,5 +1,6 @@
 #include "engine/mesh/shape_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -116,10 +117,25 @@ double volume(const Cylinder& cylinder) {
   return std::numbers::pi / 4 * cylinder.diameter * cylinder.diameter * cylinder.height;
 }
 
+template <int dim>
+double extent(const Box& box) {
+  return box.size.head<dim>().maxCoeff();
+}
+template <int dim>
+double extent(const Sphere& sphere) {
+  return sphere.diameter;
+}
+template <int dim>
+double extent(const Cylinder& cylinder) {
+  return std::max(cylinder.diameter, cylinder.height);
+}
+
 template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   // A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
   expect_reasonable(body, volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(body.mesh_size, dim)));
+  // Far beyond the shape, a size spoils the coarsest mesh instead of making it coarser.
+  const double size = std::min(body.mesh_size, extent<dim>(shape));
   // A thin plate's two sides come out alike from the frontal mesher, and nodes straight above each other make slivers, which
   // no optimiser can remove from between two faces. Then the next mesher is asked.
   SimplexMesh<dim> best;
@@ -129,7 +145,7 @@ SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
     with_gmsh([&] {
       gmsh::model::add(body.name);
       draw<dim>(shape);
-      generate(dim, body.mesh_size, faces);
+      generate(dim, size, faces);
       raw = model_mesh();
     });
     for (Eigen::Vector3d& point : raw.points) to_surface(shape, point);

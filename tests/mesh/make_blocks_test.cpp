@@ -25,6 +25,20 @@ double smallest_volume(const BlockMesh<dim>& mesh) {
   return smallest;
 }
 
+// Mean ratio: 1 for a regular tetrahedron, 0 for a flat one.
+double worst_mean_ratio(const BlockMesh<3>& mesh) {
+  double worst = 1;
+  for (const ElementId e : mesh.elements.ids()) {
+    const auto& corner = mesh.elements[e];
+    double squares = 0;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) squares += (mesh.nodes[corner[i]] - mesh.nodes[corner[j]]).squaredNorm();
+    }
+    worst = std::min(worst, 12 * std::pow(3 * element_volume(mesh, e), 2.0 / 3) / squares);
+  }
+  return worst;
+}
+
 template <int dim>
 bool same_to_the_bit(const BlockMesh<dim>& a, const BlockMesh<dim>& b) {
   return a.nodes == b.nodes && a.elements == b.elements;
@@ -94,6 +108,7 @@ TEST(MakeBlocks, AMeshSizeBeyondTheShapeGivesAFewElements) {
   EXPECT_LE(box.elements.size(), 24u);
   EXPECT_NEAR(total_volume(box), 0.064, 1e-15);
   const auto sphere = make_blocks<3>({body_of(Sphere{0.4}, 5)});
+  EXPECT_GT(worst_mean_ratio(sphere), 0.5);
   EXPECT_LE(sphere.elements.size(), 48u);
   EXPECT_GT(total_volume(sphere), 0.6 * 4.0 / 3 * pi * 0.008);
 }
@@ -108,20 +123,6 @@ TEST(MakeBlocks, BlocksPerElementOwnTheirNodes) {
     EXPECT_EQ(block.nodes.size(), 4u);
   }
   for (const ElementId e : whole.elements.ids()) EXPECT_EQ(element_volume(whole, e), element_volume(apart, e));
-}
-
-// Mean ratio: 1 for a regular tetrahedron, 0 for a flat one.
-double worst_mean_ratio(const BlockMesh<3>& mesh) {
-  double worst = 1;
-  for (const ElementId e : mesh.elements.ids()) {
-    const auto& corner = mesh.elements[e];
-    double squares = 0;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < i; ++j) squares += (mesh.nodes[corner[i]] - mesh.nodes[corner[j]]).squaredNorm();
-    }
-    worst = std::min(worst, 12 * std::pow(3 * element_volume(mesh, e), 2.0 / 3) / squares);
-  }
-  return worst;
 }
 
 TEST(MakeBlocks, NoSingleElementBlockIsASliver) {
