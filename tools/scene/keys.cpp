@@ -192,6 +192,9 @@ Keys settle_keys() {
       row("settle.viscous_damping", quantity, "Drag per mass while the blocks fall; they come to rest without it.", q::rate,
           not_negative)
           .fallback(with_unit(by_default.viscous_damping, "s-1")),
+      row("settle.release_time", quantity, "Blocks are let go one by one, the lowest first, over this time; 0: all at once.",
+          q::time, not_negative)
+          .fallback(with_unit(by_default.release_time, "s")),
       row("settle.rest_speed", quantity, "Root mean square speed below which the pile may be at rest.", q::speed, positive)
           .fallback(with_unit(by_default.rest_speed, "m/s")),
       row("settle.rest_unbalanced_force", quantity, "Largest mean net force over mean contact force on a block at rest.",

@@ -12,6 +12,7 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.step = settle.at("step").number();
   options.local_damping = settle.at("local_damping").number();
   options.viscous_damping = settle.at("viscous_damping").number();
+  options.release_time = settle.at("release_time").number();
   options.rest_speed = settle.at("rest_speed").number();
   options.rest_unbalanced_force = settle.at("rest_unbalanced_force").number();
   options.rest_displacement = settle.at("rest_displacement").number();
