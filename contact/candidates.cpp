@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/face_grid.h"
+#include "contact/segment.h"
 #include "contact/touch.h"
 
 namespace scree::contact {
@@ -30,87 +30,112 @@ Table<FaceId, FaceBounds<dim>> bounds_of(const Surface<dim>& surface, const Cont
   return all;
 }
 
-// Lowest and highest corner of a face above the plane of another.
-struct Span {
-  double low, high;  // [m]
-
-  [[nodiscard]] bool beyond(double reach) const { return low > reach || high < -reach; }
-};
-
+// Heights of a face's corners above the plane of another.
 template <int dim>
-Span span_above(const FaceBounds<dim>& plane, const Corners<dim>& corners) {
-  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const auto& corner : corners) {
-    const double height = plane.normal.dot(corner) - plane.offset;
-    span.low = std::min(span.low, height);
-    span.high = std::max(span.high, height);
-  }
-  return span;
+std::array<double, dim> heights_above(const FaceBounds<dim>& plane, const Corners<dim>& corners) {
+  std::array<double, dim> heights;
+  for (int i = 0; i < dim; ++i) heights[i] = plane.normal.dot(corners[i]) - plane.offset;
+  return heights;
 }
 
+template <std::size_t count>
+bool all_beyond(const std::array<double, count>& heights, double reach) {
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  return *low > reach || *high < -reach;
+}
+
+// What touch_face and touch_edge are asked only after cheap bounds have dismissed nearly all pairs.
 template <int dim>
 class PairSearch {
  public:
   PairSearch(const Surface<dim>& surface, const ContactOptions& options)
-      : surface_(surface), options_(options), bounds_(bounds_of(surface, options)), grid_(bounds_) {}
+      : surface_(surface), options_(options), bounds_(bounds_of(surface, options)), grid_(bounds_) {
+    corners_.reserve(surface.faces.size());
+    for (const FaceId face : surface.faces.ids()) corners_.push_back(corners_of(surface, face));
+  }
 
   [[nodiscard]] Candidates run() {
     auto scratch = grid_.make_scratch();
     for (const FaceId face : surface_.faces.ids()) {
       grid_.find(face, scratch);
-      for (const FaceId other : scratch.found) {
-        if (apart(face, other)) continue;
-        add(face, other);
-        add(other, face);
-      }
+      for (const FaceId other : scratch.found) add_pair(face, other);
     }
     return std::move(candidates_);
   }
 
  private:
-  [[nodiscard]] bool apart(FaceId a, FaceId b) const {
+  using Heights = std::array<double, dim>;
+
+  void add_pair(FaceId a, FaceId b) {
     const double reach = std::max(bounds_[a].reach, bounds_[b].reach);
-    return span_above<dim>(bounds_[a], corners_of(surface_, b)).beyond(reach) ||
-           span_above<dim>(bounds_[b], corners_of(surface_, a)).beyond(reach);
+    const Heights a_above_b = heights_above<dim>(bounds_[b], corners_[a]);
+    if (all_beyond(a_above_b, reach)) return;
+    const Heights b_above_a = heights_above<dim>(bounds_[a], corners_[b]);
+    if (all_beyond(b_above_a, reach)) return;
+    if (bounds_[a].normal.dot(bounds_[b].normal) < 0) {
+      add_springs(a, b, a_above_b);
+      add_springs(b, a, b_above_a);
+    }
+    if constexpr (dim == 3) {
+      add_edges(a, b, b_above_a);
+      add_edges(b, a, a_above_b);
+    }
   }
 
-  void add(FaceId owner, FaceId target) {
+  void add_springs(FaceId owner, FaceId target, const Heights& heights) {
+    const double reach = bounds_[owner].reach;
+    double mean = 0;
+    for (const double height : heights) mean += height / dim;
     for (int corner = 0; corner < dim; ++corner) {
+      const double vertex = heights[corner];
+      const double spring = vertex + options_.indentation * (mean - vertex);
+      if (std::abs(vertex) > margin * reach && std::abs(spring) > margin * reach) continue;
       const auto touch = touch_face(surface_, options_, owner, corner, target);
       if (!touch) continue;
-      const auto spring = static_cast<std::uint32_t>(owner.index() * dim + corner);
-      candidates_.springs.push_back({spring, target, std::abs(touch->gap), touch->facing});
-    }
-    if constexpr (dim == 3) add_edges(owner, target);
-  }
-
-  // An edge is searched with the first of its two faces.
-  void add_edges(FaceId owner, FaceId target) {
-    for (const EdgeId edge : surface_.face_edges[target]) {
-      if (surface_.edges[edge].faces[0] != target || beyond(owner, edge)) continue;
-      for (int side = 0; side < 3; ++side) {
-        const auto touch = touch_edge(surface_, options_, owner, side, edge);
-        if (!touch) continue;
-        const auto semi_edge = static_cast<std::uint32_t>(owner.index() * 3 + side);
-        candidates_.edges.push_back({semi_edge, edge, std::abs(touch->gap), std::abs(touch->along - 0.5)});
-      }
+      const auto index = static_cast<std::uint32_t>(owner.index() * dim + corner);
+      candidates_.springs.push_back({index, target, std::abs(touch->gap), touch->facing});
     }
   }
 
-  // Is the edge clear of the face's plane or of its box?
-  [[nodiscard]] bool beyond(FaceId owner, EdgeId edge) const {
-    const FaceBounds<dim>& face = bounds_[owner];
-    const Point<dim>& start = surface_.mesh.nodes[surface_.edges[edge].nodes[0]];
-    const Point<dim>& end = surface_.mesh.nodes[surface_.edges[edge].nodes[1]];
-    const double low = face.normal.dot(start) - face.offset, high = face.normal.dot(end) - face.offset;
-    if ((low > face.reach && high > face.reach) || (low < -face.reach && high < -face.reach)) return true;
-    return (start.cwiseMin(end).array() > face.box.max().array()).any() ||
-           (start.cwiseMax(end).array() < face.box.min().array()).any();
+  // An edge is searched with the first of its two faces. `heights` are the target's corners above the owner's plane.
+  void add_edges(FaceId owner, FaceId target, const Heights& heights) {
+    const FaceBounds<dim>& bounds = bounds_[owner];
+    for (int i = 0; i < 3; ++i) {
+      const int next = (i + 1) % 3;
+      if (all_beyond<2>({heights[i], heights[next]}, margin * bounds.reach)) continue;
+      const EdgeId edge = surface_.face_edges[target][i];
+      if (surface_.edges[edge].faces[0] != target) continue;
+      const Point<3>& start = corners_[target][i];
+      const Point<3>& end = corners_[target][next];
+      if ((start.cwiseMin(end).array() > bounds.box.max().array()).any()) continue;
+      if ((start.cwiseMax(end).array() < bounds.box.min().array()).any()) continue;
+      add_edge(owner, edge, start, end);
+    }
   }
+
+  void add_edge(FaceId owner, EdgeId edge, const Point<3>& start, const Point<3>& end) {
+    const Corners<3>& own = corners_[owner];
+    const Point<3> centre = (own[0] + own[1] + own[2]) / 3;
+    Corners<3> springs;
+    for (int i = 0; i < 3; ++i) springs[i] = own[i] + options_.indentation * (centre - own[i]);
+    for (int side = 0; side < 3; ++side) {
+      // The edge that the semi-edge stands for is no further from it than this, and may touch in its place.
+      const double shift = (springs[side] - own[side]).norm();
+      const double distance = margin * (bounds_[owner].reach + shift);
+      if (!may_cross(springs[side], springs[(side + 1) % 3], start, end, distance)) continue;
+      const auto touch = touch_edge(surface_, options_, owner, side, edge);
+      if (!touch) continue;
+      const auto index = static_cast<std::uint32_t>(owner.index() * 3 + side);
+      candidates_.edges.push_back({index, edge, std::abs(touch->gap), std::abs(touch->along - 0.5)});
+    }
+  }
+
+  static constexpr double margin = 1 + 1e-9;  // so that rounding dismisses nothing that touches
 
   const Surface<dim>& surface_;
   const ContactOptions& options_;
   Table<FaceId, FaceBounds<dim>> bounds_;
+  Table<FaceId, Corners<dim>> corners_;
   FaceGrid<dim> grid_;
   Candidates candidates_;
 };

@@ -7,7 +7,8 @@ namespace scree::contact {
 
 struct ContactOptions {
   double indentation = 0.05;  // way from the vertex to the centre of its face, in (0, 1); the paper uses 0.01 to 0.05
-  double tolerance = 0.01;    // largest gap or depth that counts as touching, in characteristic lengths of the owner's element
+  double tolerance =
+      0.01;  // largest gap or depth, of the semi-spring or its vertex, in characteristic lengths of the owner's element
 };
 
 // Semi-springs and semi-edges of every block against the target faces and target edges of all other blocks (Li & Feng 2016,

@@ -42,7 +42,8 @@ std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const Con
   const Corners<dim> other = corners_of(surface, target);
   const Point<dim> point = weighted_point<dim>(own, semi_spring_weights<dim>(corner, options.indentation));
 
-  // The planes' distance is a lower bound and dismisses most.
+  if (surface.normals[target].dot(surface.normals[owner]) >= 0) return std::nullopt;
+  // The plane's distance is a lower bound and dismisses most.
   const Point<dim>& target_normal = surface.normals[target];
   const double height = target_normal.dot(point - other[0]);
   const double vertex_height = target_normal.dot(own[corner] - other[0]);

@@ -1,0 +1,94 @@
+// A contact set is the geometry's, not the numbering's or the frame's.
+#include <algorithm>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/contact/builders.h"
+
+namespace scree::contact {
+namespace {
+
+using namespace testing;
+
+// What a contact says without ids.
+template <int dim>
+struct Plain {
+  Point<dim> from, to;
+  double area, gap;
+};
+
+template <int dim>
+std::vector<Plain<dim>> plain(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options) {
+  std::vector<Plain<dim>> all;
+  for (const auto& contact : find_contacts<dim>(mesh, options).contacts) {
+    all.push_back({contact.point, value(mesh, contact.on_target), contact.area, contact.gap});
+  }
+  return all;
+}
+
+template <int dim>
+void expect_same(std::vector<Plain<dim>> a, std::vector<Plain<dim>> b) {
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 50);
+  // Every contact of `a` has its own in `b`: no two begin at one point.
+  for (const auto& contact : a) {
+    const auto twin = std::min_element(b.begin(), b.end(), [&](const auto& left, const auto& right) {
+      return (left.from - contact.from).squaredNorm() < (right.from - contact.from).squaredNorm();
+    });
+    EXPECT_NEAR((twin->from - contact.from).norm(), 0, 1e-9);
+    EXPECT_NEAR((twin->to - contact.to).norm(), 0, 1e-9);
+    EXPECT_NEAR(twin->area, contact.area, 1e-9);
+    EXPECT_NEAR(twin->gap, contact.gap, 1e-9);
+  }
+}
+
+template <int dim>
+BlockOf<dim> pile() {
+  std::mt19937 random(23);
+  return random_simplices<dim>(150, 1.5, 0.4, random);
+}
+
+template <int dim>
+void renumber() {
+  auto simplices = pile<dim>();
+  const ContactOptions options{0.05, 0.1};
+  const auto before = plain<dim>(each_its_own<dim>(simplices), options);
+  std::mt19937 random(1);
+  std::shuffle(simplices.begin(), simplices.end(), random);
+  for (auto& simplex : simplices) std::shuffle(simplex.begin(), simplex.end(), random);
+  expect_same<dim>(before, plain<dim>(each_its_own<dim>(simplices), options));
+}
+
+template <int dim>
+void move() {
+  auto simplices = pile<dim>();
+  const ContactOptions options{0.05, 0.1};
+  auto before = plain<dim>(each_its_own<dim>(simplices), options);
+  Eigen::Matrix<double, dim, dim> rotation;
+  if constexpr (dim == 2) {
+    rotation = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+  } else {
+    rotation = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized().toRotationMatrix();
+  }
+  const Point<dim> shift = Point<dim>::Constant(-123.4);
+  const auto moved = [&](const Point<dim>& point) -> Point<dim> { return rotation * point + shift; };
+  for (auto& simplex : simplices) {
+    for (auto& corner : simplex) corner = moved(corner);
+  }
+  for (auto& contact : before) contact = {moved(contact.from), moved(contact.to), contact.area, contact.gap};
+  expect_same<dim>(before, plain<dim>(each_its_own<dim>(simplices), options));
+}
+
+TEST(ContactSet, DoesNotDependOnTheNumberingOfBlocksAndNodes) {
+  renumber<2>();
+  renumber<3>();
+}
+
+TEST(ContactSet, MovesWithTheWhole) {
+  move<2>();
+  move<3>();
+}
+
+}  // namespace
+}  // namespace scree::contact
