@@ -117,41 +117,8 @@ struct World::Item {
 World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
     : bullet_(std::make_unique<Bullet>(ranges_for(mesh, options), static_cast<int>(mesh.blocks.size()))) {
   bullet_->world.setGravity(to_bullet(options.gravity));
-  for (const BlockId block : mesh.blocks.ids()) {
-    const mesh::Body& owner = mesh.bodies[mesh.blocks[block].body];
-    const Material& material = materials[owner.material];
-    Item& item = items_.emplace_back();
-    btVector3 inertia(0, 0, 0);
-    if (!owner.fixed) {
-      const MassProperties properties = mass_properties(mesh, block, density_of(material));
-      item.frame = {properties.centre, properties.principal};
-      item.mass = properties.mass;
-      inertia = to_bullet(properties.inertia);
-    }
-    for (mesh::ConvexPiece& piece : mesh::convex_pieces(mesh, block)) {
-      item.pieces.push_back(std::make_unique<PolyhedronShape>(moved(std::move(piece), inverse(item.frame))));
-      item.radius = std::max(item.radius, item.pieces.back()->radius());
-    }
-    btCollisionShape* shape = item.pieces.front().get();
-    if (item.pieces.size() > 1) {
-      item.compound = std::make_unique<btCompoundShape>();
-      for (const auto& piece : item.pieces) item.compound->addChildShape(btTransform::getIdentity(), piece.get());
-      shape = item.compound.get();
-    }
-    btRigidBody::btRigidBodyConstructionInfo info(item.mass, nullptr, shape, inertia);
-    info.m_startWorldTransform = transform_of(item.frame);
-    info.m_friction = material.friction;
-    info.m_restitution = material.restitution;
-    item.body = std::make_unique<btRigidBody>(info);
-    // Rest is a matter of speed and forces; a body is never put to sleep.
-    item.body->setActivationState(DISABLE_DEACTIVATION);
-    if (owner.fixed) {
-      bullet_->world.addRigidBody(item.body.get());
-    } else {
-      item.body->setLinearVelocity(to_bullet(owner.velocity));
-      order_.push_back(block);
-    }
-  }
+  for (const BlockId block : mesh.blocks.ids())
+    add_block(mesh, block, materials[mesh.bodies[mesh.blocks[block].body].material]);
   if (options.release_time > 0) {
     const btVector3 down = to_bullet(options.gravity);
     std::stable_sort(order_.begin(), order_.end(), [&](BlockId a, BlockId b) {
@@ -160,6 +127,41 @@ World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& 
     });
   } else {
     release(order_.size());
+  }
+}
+
+void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material) {
+  const mesh::Body& owner = mesh.bodies[mesh.blocks[block].body];
+  Item& item = items_.emplace_back();
+  btVector3 inertia(0, 0, 0);
+  if (!owner.fixed) {
+    const MassProperties properties = mass_properties(mesh, block, density_of(material));
+    item.frame = {properties.centre, properties.principal};
+    item.mass = properties.mass;
+    inertia = to_bullet(properties.inertia);
+  }
+  for (mesh::ConvexPiece& piece : mesh::convex_pieces(mesh, block)) {
+    item.pieces.push_back(std::make_unique<PolyhedronShape>(moved(std::move(piece), inverse(item.frame))));
+    item.radius = std::max(item.radius, item.pieces.back()->radius());
+  }
+  btCollisionShape* shape = item.pieces.front().get();
+  if (item.pieces.size() > 1) {
+    item.compound = std::make_unique<btCompoundShape>();
+    for (const auto& piece : item.pieces) item.compound->addChildShape(btTransform::getIdentity(), piece.get());
+    shape = item.compound.get();
+  }
+  btRigidBody::btRigidBodyConstructionInfo info(item.mass, nullptr, shape, inertia);
+  info.m_startWorldTransform = transform_of(item.frame);
+  info.m_friction = material.friction;
+  info.m_restitution = material.restitution;
+  item.body = std::make_unique<btRigidBody>(info);
+  // Rest is a matter of speed and forces; a body is never put to sleep.
+  item.body->setActivationState(DISABLE_DEACTIVATION);
+  if (owner.fixed) {
+    bullet_->world.addRigidBody(item.body.get());
+  } else {
+    item.body->setLinearVelocity(to_bullet(owner.velocity));
+    order_.push_back(block);
   }
 }
 

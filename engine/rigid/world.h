@@ -45,6 +45,8 @@ class World {
  private:
   struct Bullet;
   struct Item;
+  void add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material);
+
   std::unique_ptr<Bullet> bullet_;
   std::vector<Item> items_;     // one per block
   std::vector<BlockId> order_;  // in which the free blocks are let go
