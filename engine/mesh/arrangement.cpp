@@ -65,7 +65,8 @@ class CentreGrid {
     return ((p - low_).array() / width_).floor().cast<int>().max(0).min(count_ - 1);
   }
   [[nodiscard]] std::size_t index(const Eigen::Array3i& c) const {
-    return static_cast<std::size_t>((c.z() * count_.y() + c.y()) * count_.x() + c.x());
+    const Eigen::Array<std::size_t, 3, 1> at = c.cast<std::size_t>(), count = count_.cast<std::size_t>();
+    return (at.z() * count.y() + at.y()) * count.x() + at.x();
   }
 
   Eigen::Vector3d low_;

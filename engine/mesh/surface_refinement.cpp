@@ -29,7 +29,7 @@ class Refiner {
       long_edges_.erase(std::prev(long_edges_.end()));
       const std::set<std::size_t> beside = triangles_.extract(edge).mapped();
       const std::size_t middle = surface_.points.size();
-      surface_.points.push_back((surface_.points[edge.first] + surface_.points[edge.second]) / 2);
+      surface_.points.emplace_back((surface_.points[edge.first] + surface_.points[edge.second]) / 2);
       for (const std::size_t t : beside) split(t, edge, middle);
     }
     return std::move(surface_);

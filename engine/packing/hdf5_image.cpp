@@ -64,6 +64,7 @@ void Hdf5Image::put(const std::string& name, const std::vector<std::int64_t>& va
 
 void Hdf5Image::put(const std::string& name, const std::vector<std::string>& values) {
   std::vector<const char*> starts;
+  starts.reserve(values.size());
   for (const std::string& value : values) starts.push_back(value.c_str());
   const H5::DataSet set = file_.createDataSet(name, text_type(), rows_of(values.size(), 1), timeless());
   if (!values.empty()) set.write(starts.data(), text_type());

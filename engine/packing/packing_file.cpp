@@ -90,7 +90,7 @@ SettleReport unpack_report(const Lists& lists) {
   report.criterion = lists.texts.back();
   report.at_rest = lists.outcome.at(0) != 0;
   for (std::size_t i = 1; i < lists.outcome.size(); ++i) {
-    report.lost_blocks.push_back(BlockId{static_cast<std::size_t>(lists.outcome[i])});
+    report.lost_blocks.emplace_back(static_cast<std::size_t>(lists.outcome[i]));
   }
   return report;
 }
