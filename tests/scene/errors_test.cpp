@@ -130,7 +130,7 @@ TEST(SceneErrors, HeatNamesBodiesOfTheScene) {
       wrong_with(whole_scene, {"heat.boundaries[0].name=a", "heat.sources[0].name=a"}),
       "--set heat.sources[0].name: heat.sources[0].name is a (must differ from the names of other boundaries and sources)");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.boundaries[1].within.low=[2, 0, 0]"}),
-            "s.yaml:21:67: heat.boundaries[1].within.high is 1 in x (must be above low, which is 2). Swap low and high");
+            "s.yaml:21:67: heat.boundaries[1].within.high is 1 in x (must be at least low, which is 2). Swap low and high");
   EXPECT_EQ(
       wrong_with(whole_scene, {"heat.boundaries[0].temperature=-1"}),
       "--set heat.boundaries[0].temperature: heat.boundaries[0].temperature is -1 (must be not negative, K). Did you mean 1?");

@@ -55,7 +55,7 @@ mesh::Arrangement read_lattice(const Checked& lattice, int dimension, Problems& 
 }
 
 mesh::Arrangement read_random(const Checked& random, int dimension, Problems& problems) {
-  check_corners(random, dimension, problems);
+  check_corners(random, Flat::refused, dimension, problems);
   return mesh::AtRandom{.count = random.at("count").integer(),
                         .low = random.at("low").vector(),
                         .high = random.at("high").vector(),

@@ -35,7 +35,7 @@ thermal::Region read_region(const Checked& part, const Names& names, int dimensi
   thermal::Region region;
   region.body = resolve<BodyId>(part.at("body"), names.bodies, "body", problems);
   if (const Checked* within = part.find("within")) {
-    check_corners(*within, dimension, problems);
+    check_corners(*within, Flat::allowed, dimension, problems);
     region.within = Aabb<3>(within->at("low").vector(), within->at("high").vector());
   }
   return region;

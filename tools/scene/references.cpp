@@ -54,17 +54,19 @@ Eigen::Quaterniond read_rotation(const Checked* rotation, int dimension, Problem
   return result.normalized();
 }
 
-void check_corners(const Checked& region, int dimension, Problems& problems) {
+void check_corners(const Checked& region, Flat flat, int dimension, Problems& problems) {
   const Checked& low = region.at("low");
   const Checked& high = region.at("high");
   if (!low.sound || !high.sound) return;
   for (int i = 0; i < dimension; ++i) {
-    if (low.vector()[i] < high.vector()[i]) continue;
+    const bool equal = low.vector()[i] == high.vector()[i];
+    if (low.vector()[i] < high.vector()[i] || (equal && flat == Flat::allowed)) continue;
     const char axis = "xyz"[i];
     const auto at = static_cast<std::size_t>(i);
-    problems.push_back(high.problem(fmt::format("{} in {}", high.texts[at], axis),
-                                    fmt::format("must be above low, which is {}", low.texts[at]),
-                                    low.vector()[i] == high.vector()[i] ? "" : "Swap low and high"));
+    problems.push_back(
+        high.problem(fmt::format("{} in {}", high.texts[at], axis),
+                     fmt::format("must be {} low, which is {}", flat == Flat::allowed ? "at least" : "above", low.texts[at]),
+                     equal ? "" : "Swap low and high"));
     return;
   }
 }

@@ -33,7 +33,10 @@ std::vector<std::string> names_of(const Checked& map);
 template <class IdType>
 IdType resolve(const Checked& reference, const std::vector<std::string>& names, const std::string& what, Problems& problems);
 
+// Whether a box of space may be a plane, a line or a point.
+enum class Flat { allowed, refused };
+
 // A corner below the opposite one in every direction of space.
-void check_corners(const Checked& region, int dimension, Problems& problems);
+void check_corners(const Checked& region, Flat flat, int dimension, Problems& problems);
 
 }  // namespace scree
