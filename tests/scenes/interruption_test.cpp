@@ -1,0 +1,93 @@
+// Runs of the command that are stopped on their way: what they leave is readable, and resuming gives the same result.
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/scene_run.h"
+
+extern char** environ;
+
+namespace scree::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+pid_t start(const Arguments& arguments) {
+  Arguments words{SCREE_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.emplace_back("--quiet");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  EXPECT_EQ(posix_spawn(&child, SCREE_PROGRAM, nullptr, nullptr, argv.data(), environ), 0);
+  return child;
+}
+
+// The exit status, or minus the signal that ended it.
+int wait_for(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+// Heat with many output times, so that a signal finds the run on its way.
+Arguments heat_in(const std::filesystem::path& directory) {
+  const auto scene = std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / "bars_and_joint.yaml";
+  return {"run", scene.string(), "--out", directory.string(), "--set", "heat.until=10 min", "--set", "output.every=5 s"};
+}
+
+void stop_after_some_frames(pid_t child, const std::filesystem::path& directory, int signal) {
+  const auto pvd = directory / "heat.pvd";
+  for (int i = 0; i < 2000; ++i) {
+    if (std::filesystem::exists(pvd) && listed_frames(pvd).size() >= 10) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  kill(child, signal);
+}
+
+class Interruption : public ::testing::TestWithParam<int> {
+ protected:
+  static void SetUpTestSuite() {
+    whole_ = fresh_directory("uninterrupted");
+    ASSERT_EQ(wait_for(start(heat_in(whole_))), 0);
+  }
+
+  static inline std::filesystem::path whole_;
+};
+
+TEST_P(Interruption, LeavesReadableFramesAndResumesToTheSameResult) {
+  const auto directory = fresh_directory("interrupted_" + std::to_string(GetParam()));
+  const pid_t child = start(heat_in(directory));
+  stop_after_some_frames(child, directory, GetParam());
+  EXPECT_EQ(wait_for(child), GetParam() == SIGKILL ? -SIGKILL : 130);
+
+  const auto left = listed_frames(directory / "heat.pvd");
+  EXPECT_GE(left.size(), 10u);
+  EXPECT_LT(left.size(), 121u) << "the run had ended before it was stopped";
+  for (const auto& frame : left) EXPECT_EQ(contents(directory / frame), contents(whole_ / frame));
+  EXPECT_NE(nlohmann::json::parse(contents(directory / "summary.json"))["status"], "complete");
+
+  EXPECT_EQ(wait_for(start({"resume", directory.string()})), 0);
+  EXPECT_EQ(contents(directory / "probes.csv"), contents(whole_ / "probes.csv"));
+  EXPECT_EQ(contents(directory / "heat.pvd"), contents(whole_ / "heat.pvd"));
+  for (const char* series : {"heat.pvd", "contacts.pvd"}) {
+    for (const auto& frame : listed_frames(directory / series))
+      EXPECT_EQ(contents(directory / frame), contents(whole_ / frame));
+  }
+  auto resumed = nlohmann::json::parse(contents(directory / "summary.json"));
+  auto uninterrupted = nlohmann::json::parse(contents(whole_ / "summary.json"));
+  EXPECT_EQ(resumed["heat"]["ledger"], uninterrupted["heat"]["ledger"]);
+  EXPECT_EQ(resumed["heat"]["steps"], uninterrupted["heat"]["steps"]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+}  // namespace
+}  // namespace scree::test

@@ -1,0 +1,89 @@
+// The scenes that move: scenes/falling_cube, stack_of_cubes, sliding_block, slope, poured_stones.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/scene_run.h"
+
+namespace scree::test {
+namespace {
+
+// Where the first free block went, from where it was meshed [m].
+Eigen::Vector3d displacement(const SceneRun& run) {
+  const auto packing = run.packing();
+  for (const BlockId id : packing.mesh.blocks.ids()) {
+    const mesh::Block& block = packing.mesh.blocks[id];
+    if (packing.mesh.bodies[block.body].fixed) continue;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const NodeId node : block.nodes) centre += packing.mesh.nodes[node];
+    centre /= static_cast<double>(block.nodes.size());
+    return packing.poses[id] * centre - centre;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+TEST(FallingCube, RestsOnThePlateToATenThousandthOfItsEdge) {
+  const SceneRun run = test::run("falling_cube", fresh_directory("falling_cube"));
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_EQ(run.summary["status"], "complete");
+  EXPECT_TRUE(run.summary["settle"]["at_rest"]);
+  EXPECT_NEAR(run.summary["settle"]["top"], 0.1, 1e-5);
+  EXPECT_FALSE(run.summary.contains("heat"));
+  EXPECT_FALSE(std::filesystem::exists(run.directory / "heat.pvd"));
+}
+
+TEST(StackOfCubes, Stands) {
+  const SceneRun run = test::run("stack_of_cubes", fresh_directory("stack_of_cubes"));
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_NEAR(run.summary["settle"]["top"], 0.5, 5e-4);
+  EXPECT_EQ(run.summary["settle"]["lost_blocks"], 0);
+}
+
+TEST(SlidingBlock, StopsWhereFrictionHasEatenItsEnergy) {
+  const SceneRun run = test::run("sliding_block", fresh_directory("sliding_block"));
+  EXPECT_EQ(run.exit_status, 0);
+  const double closed_form = 2.0 * 2.0 / (2 * 0.48 * 9.81);
+  EXPECT_NEAR(displacement(run).x(), closed_form, 0.02 * closed_form);
+}
+
+TEST(BlockOnASlope, StaysBelowTheAngleOfFriction) {
+  const SceneRun run = test::run("slope", fresh_directory("slope"));
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_LT(displacement(run).norm(), 2e-4);
+}
+
+TEST(BlockOnASlope, SlidesWithItsClosedFormAboveTheAngleOfFriction) {
+  const SceneRun run = test::run("slope", fresh_directory("slope_slides"), {"materials.rock.friction=0.3"});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(run.summary["status"], "not_settled");
+  const double angle = 25 * M_PI / 180;
+  const double acceleration = 9.81 * (std::sin(angle) - 0.3 * std::cos(angle));
+  const double time = run.summary["settle"]["simulated_time"];
+  const double closed_form = 0.5 * acceleration * time * time;
+  EXPECT_NEAR(displacement(run).x(), closed_form, 0.02 * closed_form);
+}
+
+TEST(BlockOnASlope, ThatStillSlidesIsAcceptedOnlyWhereTheSceneSaysSo) {
+  const SceneRun run =
+      test::run("slope", fresh_directory("slope_accepted"), {"materials.rock.friction=0.3", "settle.accept_moving=true"});
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_FALSE(run.summary["settle"]["at_rest"]);
+}
+
+TEST(PouredStones, SettleTheSameWayTwice) {
+  const SceneRun first = test::run("poured_stones", fresh_directory("poured_stones_1"));
+  const SceneRun second = test::run("poured_stones", fresh_directory("poured_stones_2"));
+  ASSERT_EQ(first.exit_status, 0);
+  EXPECT_EQ(first.summary["blocks"], 31);
+  EXPECT_EQ(first.summary["settle"]["lost_blocks"], 0);
+  const auto a = first.packing();
+  const auto b = second.packing();
+  for (const BlockId id : a.poses.ids()) {
+    EXPECT_EQ(a.poses[id].translation, b.poses[id].translation);
+    EXPECT_EQ(a.poses[id].rotation.coeffs(), b.poses[id].rotation.coeffs());
+  }
+}
+
+}  // namespace
+}  // namespace scree::test

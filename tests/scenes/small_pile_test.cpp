@@ -1,0 +1,102 @@
+// scenes/small_pile: the whole chain.
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/scene_run.h"
+
+namespace scree::test {
+namespace {
+
+class SmallPile : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { run_ = new SceneRun(test::run("small_pile", fresh_directory("small_pile"))); }
+  static void TearDownTestSuite() { delete run_; }
+
+  static inline SceneRun* run_ = nullptr;
+};
+
+TEST_F(SmallPile, IsCompleteAndSound) {
+  EXPECT_EQ(run_->exit_status, 0);
+  EXPECT_EQ(run_->summary["status"], "complete");
+  EXPECT_GT(run_->summary["blocks"], 200);
+  EXPECT_TRUE(run_->summary["settle"]["at_rest"]);
+  EXPECT_LT(run_->summary["heat"]["ledger_residual"], 1e-8);
+  EXPECT_LE(run_->summary["heat"]["time_error"], 0.1);
+}
+
+TEST_F(SmallPile, DoesNotPenetrate) {
+  const auto& settle = run_->summary["settle"];
+  const double edge = settle["mean_edge"];
+  EXPECT_LT(settle["max_penetration"], 0.01 * edge);
+  EXPECT_LT(settle["mean_penetration"], 0.001 * edge);
+}
+
+// Linear elements with obtuse angles and contacts that interpolate within their faces have no strict maximum principle; what
+// they give up is small against the range of 75 K.
+TEST_F(SmallPile, StaysBetweenItsInitialAndItsBoundaryTemperatureToOnePercentOfTheirRange) {
+  EXPECT_GT(run_->summary["heat"]["least_temperature"], 273.15 + 25 - 0.75);
+  EXPECT_LT(run_->summary["heat"]["largest_temperature"], 273.15 + 100 + 0.75);
+}
+
+TEST_F(SmallPile, WarmsAtItsProbe) {
+  const auto columns = run_->probes();
+  const auto& inside = columns.at("inside");
+  ASSERT_EQ(inside.size(), 13u);
+  EXPECT_DOUBLE_EQ(inside.front(), 273.15 + 25);
+  EXPECT_GT(inside.back(), 273.15 + 50);
+}
+
+TEST_F(SmallPile, StatesTheCostOfEveryStage) {
+  std::vector<std::string> names;
+  for (const auto& stage : run_->summary["stages"]) {
+    names.push_back(stage["name"]);
+    EXPECT_GE(stage["wall_seconds"], 0);
+    EXPECT_GT(stage["peak_memory_bytes"], 1e6);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"mesh", "settle", "contacts", "assemble", "heat"}));
+}
+
+TEST_F(SmallPile, ListsOnlyFramesThatAreThere) {
+  for (const char* series : {"settle.pvd", "heat.pvd", "contacts.pvd"}) {
+    const auto frames = listed_frames(run_->directory / series);
+    EXPECT_GE(frames.size(), 2u) << series;
+    for (const auto& frame : frames) EXPECT_TRUE(std::filesystem::exists(run_->directory / frame)) << frame;
+  }
+}
+
+TEST_F(SmallPile, UsesThePackingItHasWhenOnlyTheHeatChanges) {
+  const auto directory = fresh_directory("small_pile_reheated");
+  std::filesystem::copy(run_->directory / "packing.h5", directory / "packing.h5");
+  const SceneRun again = test::run("small_pile", directory, {"contact.stiffness_factor=1"});
+  EXPECT_EQ(again.exit_status, 0);
+  EXPECT_TRUE(again.summary["settle"]["reused"]);
+  EXPECT_LT(again.probes().at("inside").back(), run_->probes().at("inside").back());
+  for (const auto& stage : again.summary["stages"]) EXPECT_NE(stage["name"], "settle");
+}
+
+TEST_F(SmallPile, SettlesAnewWhenTheFrictionChanges) {
+  const auto directory = fresh_directory("small_pile_smoother");
+  std::filesystem::copy(run_->directory / "packing.h5", directory / "packing.h5");
+  const SceneRun again =
+      test::run("small_pile", directory, {"materials.rock.friction=0.5", "settle.limit=0.3 s", "settle.accept_moving=true"});
+  EXPECT_FALSE(again.summary["settle"]["reused"]);
+  EXPECT_NE(again.summary["settle"]["packing_key"], run_->summary["settle"]["packing_key"]);
+}
+
+TEST_F(SmallPile, CanStartFromAPackingFile) {
+  const SceneRun again = test::run("small_pile_reheated", fresh_directory("small_pile_from_file"),
+                                   {"packing=" + (run_->directory / "packing.h5").string()});
+  EXPECT_EQ(again.exit_status, 0);
+  EXPECT_EQ(contents(again.directory / "probes.csv"), contents(run_->directory / "probes.csv"));
+}
+
+TEST_F(SmallPile, IsReproducedByTheEffectiveSceneItLeaves) {
+  const auto directory = fresh_directory("small_pile_again");
+  std::filesystem::copy(run_->directory / "packing.h5", directory / "packing.h5");
+  const SceneRun again = test::run_file(run_->directory / "scene.yaml", directory);
+  EXPECT_EQ(contents(again.directory / "probes.csv"), contents(run_->directory / "probes.csv"));
+  EXPECT_EQ(again.summary["scene_hash"], run_->summary["scene_hash"]);
+}
+
+}  // namespace
+}  // namespace scree::test

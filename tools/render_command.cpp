@@ -1,0 +1,89 @@
+#include "tools/render_command.h"
+
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
+#include "engine/base/units.h"
+#include "engine/output/render.h"
+
+namespace scree {
+
+namespace {
+
+// What a series is looked at for, and how its legend reads.
+struct Look {
+  std::string array;
+  std::string title;
+  double offset = 0;
+};
+
+Look look_of(const RenderArguments& arguments) {
+  const std::string array = !arguments.array.empty()         ? arguments.array
+                            : arguments.series == "heat"     ? "temperature"
+                            : arguments.series == "contacts" ? "heat_flow"
+                                                             : "body";
+  if (array == "temperature") return {array, "temperature [degC]", -273.15};
+  if (array == "heat_flux") return {array, "heat flux [W/m2]"};
+  if (array == "heat_flow") return {array, "heat flow [W]"};
+  return {array, array};
+}
+
+double number(const std::string& option, const std::string& text, const Quantity& quantity) {
+  const auto parsed = parse_quantity(text, quantity);
+  if (const auto* problem = std::get_if<UnitProblem>(&parsed)) {
+    Problem wrong;
+    wrong.key = option;
+    wrong.value = text;
+    wrong.rule = problem->reason;
+    wrong.suggestion = problem->suggestion;
+    throw InputError(wrong);
+  }
+  return std::get<double>(parsed);
+}
+
+Aabb<3> view_of(const std::vector<std::string>& corners) {
+  Aabb<3> view;
+  for (int corner = 0; corner < 2; ++corner) {
+    Eigen::Vector3d point;
+    for (int i = 0; i < 3; ++i)
+      point[i] = number("--view", corners[static_cast<std::size_t>(3 * corner + i)], quantity::length);
+    view.extend(point);
+  }
+  return view;
+}
+
+}  // namespace
+
+void declare_render(CLI::App& command, RenderArguments& arguments) {
+  command.add_option("directory", arguments.directory, "the --out of a run")->required();
+  command.add_option("--series", arguments.series, "settle, heat or contacts")
+      ->check(CLI::IsMember({"settle", "heat", "contacts"}));
+  command.add_option("--array", arguments.array, "what the colours show (default: temperature, heat_flow or body)");
+  command.add_option("--time", arguments.time, "of the frame, such as \"2 h\" (default: the last)");
+  command.add_option("--cut", arguments.cut, "leave out what is in front of this y, such as \"0 m\"");
+  command.add_option("--view", arguments.view, "low and high corner of what the picture shows: x y z x y z")->expected(6);
+  command.add_option("--picture", arguments.picture, "the PNG (default: SERIES.png in the run's directory)");
+}
+
+int render_command(const RenderArguments& arguments) {
+  const std::filesystem::path directory = arguments.directory;
+  const Look look = look_of(arguments);
+  output::Picture picture;
+  picture.series = directory / (arguments.series + ".pvd");
+  picture.array = look.array;
+  picture.title = look.title;
+  picture.offset = look.offset;
+  if (!arguments.time.empty()) picture.time = number("--time", arguments.time, quantity::time);
+  if (!arguments.cut.empty()) picture.cut = number("--cut", arguments.cut, quantity::length);
+  if (!arguments.view.empty()) picture.view = view_of(arguments.view);
+  const std::filesystem::path png =
+      arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
+  output::render(picture, png);
+  fmt::print("{}\n", png.string());
+  return 0;
+}
+
+}  // namespace scree

@@ -1,0 +1,95 @@
+#include "tools/run/frames.h"
+
+#include <numeric>
+
+namespace scree::run {
+
+namespace {
+
+template <class Contacts, class Get>
+auto collect(const Contacts& contacts, Get get) {
+  std::vector<decltype(get(contacts.front()))> values;
+  values.reserve(contacts.size());
+  for (const auto& contact : contacts) values.push_back(get(contact));
+  return values;
+}
+
+}  // namespace
+
+template <int dim>
+std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh) {
+  std::vector<std::int32_t> blocks(mesh.elements.size());
+  std::vector<std::int32_t> bodies(mesh.elements.size());
+  std::vector<std::int32_t> materials(mesh.elements.size());
+  for (const BlockId id : mesh.blocks.ids()) {
+    const mesh::Block& block = mesh.blocks[id];
+    for (const ElementId e : block.elements) {
+      blocks[e.index()] = id.value();
+      bodies[e.index()] = block.body.value();
+      materials[e.index()] = mesh.bodies[block.body].material.value();
+    }
+  }
+  return {{"block", 1, std::move(blocks)}, {"body", 1, std::move(bodies)}, {"material", 1, std::move(materials)}};
+}
+
+output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>& poses) {
+  output::Grid grid = output::make_grid(mesh);
+  for (const BlockId block : mesh.blocks.ids()) {
+    for (const NodeId node : mesh.blocks[block].nodes) grid.points[node.index()] = poses[block] * grid.points[node.index()];
+  }
+  return grid;
+}
+
+template <int dim>
+output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
+                         const std::vector<Point<dim>>& flux) {
+  std::vector<double> components;
+  components.reserve(3 * flux.size());
+  for (const Point<dim>& q : flux) {
+    for (int i = 0; i < 3; ++i) components.push_back(i < dim ? q[i] : 0.0);
+  }
+  output::Frame frame{time, {}, identity};
+  frame.points.push_back({"temperature", 1, std::vector<double>(temperature.begin(), temperature.end())});
+  frame.cells.push_back({"heat_flux", 3, std::move(components)});
+  return frame;
+}
+
+template <int dim>
+output::Grid contact_grid(const contact::ContactSet<dim>& contacts) {
+  output::Grid grid;
+  grid.type = output::CellType::vertex;
+  for (const auto& contact : contacts.contacts) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    point.head<dim>() = contact.point;
+    grid.points.push_back(point);
+  }
+  grid.connectivity.resize(grid.points.size());
+  std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
+  return grid;
+}
+
+template <int dim>
+output::Frame contact_frame(double time, const contact::ContactSet<dim>& contacts, std::vector<double> flow) {
+  using Contact = contact::Contact<dim>;
+  const auto& all = contacts.contacts;
+  output::Frame frame{time, {}, {}};
+  frame.cells.push_back({"heat_flow", 1, std::move(flow)});
+  frame.cells.push_back({"area", 1, collect(all, [](const Contact& c) { return c.area; })});
+  frame.cells.push_back({"gap", 1, collect(all, [](const Contact& c) { return c.gap; })});
+  frame.cells.push_back({"kind", 1, collect(all, [](const Contact& c) { return static_cast<std::int32_t>(c.kind); })});
+  frame.cells.push_back({"owner", 1, collect(all, [](const Contact& c) { return c.owner.value(); })});
+  frame.cells.push_back({"target", 1, collect(all, [](const Contact& c) { return c.target.value(); })});
+  return frame;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                              \
+  template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                    \
+  template output::Frame heat_frame<dim>(double, const std::vector<output::Array>&, const Eigen::VectorXd&, \
+                                         const std::vector<Point<dim>>&);                                   \
+  template output::Grid contact_grid<dim>(const contact::ContactSet<dim>&);                                 \
+  template output::Frame contact_frame<dim>(double, const contact::ContactSet<dim>&, std::vector<double>);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
+
+}  // namespace scree::run

@@ -1,0 +1,32 @@
+// What the series show: the arrays of blocks, of temperatures and of contacts.
+#pragma once
+
+#include <vector>
+
+#include "contact/contact_set.h"
+#include "engine/output/series.h"
+#include "engine/packing/packing.h"
+
+namespace scree::run {
+
+// `block`, `body` and `material` of every element: counted from 0 in the order of the scene.
+template <int dim>
+std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh);
+
+// Blocks on their way: grid of the mesh with every block at its pose.
+output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>& poses);
+
+// `temperature` [K] at the nodes and `heat_flux` [W/m2] in the elements.
+template <int dim>
+output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
+                         const std::vector<Point<dim>>& flux);
+
+// One vertex per contact, where it is.
+template <int dim>
+output::Grid contact_grid(const contact::ContactSet<dim>& contacts);
+
+// `heat_flow` [W] from owner to target, with `owner`, `target`, `kind` (0 point-face, 1 edge-edge), `area` [m2], `gap` [m].
+template <int dim>
+output::Frame contact_frame(double time, const contact::ContactSet<dim>& contacts, std::vector<double> flow);
+
+}  // namespace scree::run

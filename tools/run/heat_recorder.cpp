@@ -1,0 +1,55 @@
+#include "tools/run/heat_recorder.h"
+
+#include "tools/run/frames.h"
+
+namespace scree::run {
+
+namespace {
+
+template <int dim>
+output::ProbeTable start_table(const RunFiles& files, const HeatedPile<dim>& pile) {
+  std::vector<std::string> names;
+  for (const auto& probe : pile.probes) names.push_back(probe.name);
+  return output::ProbeTable(files.probes(), output::describe(pile.probes, pile.mesh), names);
+}
+
+}  // namespace
+
+template <int dim>
+HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile,
+                                std::optional<double> resumed_from)
+    : scene_(scene),
+      pile_(pile),
+      restart_(files.restart()),
+      grid_(output::make_grid(pile.mesh)),
+      contact_grid_(contact_grid(pile.contacts)),
+      identity_(identity_arrays(pile.mesh)),
+      series_(files.directory, "heat", resumed_from),
+      contact_series_(files.directory, "contacts", resumed_from) {
+  if (pile.probes.empty()) return;
+  if (resumed_from) {
+    table_.emplace(files.probes(), *resumed_from);
+  } else {
+    table_.emplace(start_table(files, pile));
+  }
+}
+
+template <int dim>
+void HeatRecorder<dim>::record(const thermal::HeatState& state) {
+  const auto flux = thermal::element_fluxes(pile_.mesh, scene_.materials, state.temperature);
+  series_.write(grid_, heat_frame<dim>(state.time, identity_, state.temperature, flux));
+  const auto form = scene_.heat->joint.form;
+  auto flows = thermal::contact_flows(pile_.contacts, pile_.conductances, state.temperature, form);
+  contact_series_.write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
+  if (table_) {
+    std::vector<double> values;
+    for (const auto& probe : pile_.probes) values.push_back(output::value_at(probe, pile_.mesh, state.temperature));
+    table_->append(state.time, values);
+  }
+  thermal::write(state, pile_.key, restart_);
+}
+
+template class HeatRecorder<2>;
+template class HeatRecorder<3>;
+
+}  // namespace scree::run

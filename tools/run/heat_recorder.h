@@ -1,0 +1,48 @@
+// Everything a heated run writes at an output time, in an order that keeps the files consistent whenever the run ends.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/contact_set.h"
+#include "engine/output/probes.h"
+#include "engine/output/series.h"
+#include "thermal/heat_run.h"
+#include "tools/run/run_files.h"
+#include "tools/scene/scene.h"
+
+namespace scree::run {
+
+// What the recorder shows, unchanged through the run.
+template <int dim>
+struct HeatedPile {
+  mesh::BlockMesh<dim> mesh;  // as placed
+  contact::ContactSet<dim> contacts;
+  std::vector<double> conductances;  // of the contacts [W/K]
+  std::vector<output::Probe<dim>> probes;
+  std::string key;  // of the heat stage
+};
+
+template <int dim>
+class HeatRecorder {
+ public:
+  // Starts the files, or goes on with those of a run that reached `resumed_from`.
+  HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, std::optional<double> resumed_from);
+
+  // The restart file comes last: it never promises more than the other files hold.
+  void record(const thermal::HeatState& state);
+
+ private:
+  const Scene& scene_;
+  const HeatedPile<dim>& pile_;
+  std::filesystem::path restart_;
+  output::Grid grid_;
+  output::Grid contact_grid_;
+  std::vector<output::Array> identity_;
+  output::Series series_;
+  output::Series contact_series_;
+  std::optional<output::ProbeTable> table_;
+};
+
+}  // namespace scree::run

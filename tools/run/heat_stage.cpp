@@ -1,0 +1,82 @@
+#include "tools/run/heat_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "contact/find_contacts.h"
+#include "tools/run/keys.h"
+
+namespace scree::run {
+
+namespace {
+
+template <int dim>
+HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& packing) {
+  const Scene& scene = context.scene;
+  HeatedPile<dim> pile;
+  pile.mesh = packing::placed_mesh(packing);
+  pile.probes = output::locate_probes(pile.mesh, scene.probes);
+  pile.key = heat_key(scene, packing);
+  pile.contacts = context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()),
+                                [&] { return contact::find_contacts(pile.mesh, *scene.contact); });
+  pile.conductances = thermal::contact_conductances(pile.mesh, scene.materials, pile.contacts, scene.heat->joint);
+  return pile;
+}
+
+// The state an interrupted run of the same heat stage left, if this run is to go on from it.
+std::optional<thermal::HeatState> interrupted_state(const RunContext& context, const std::string& key) {
+  if (!context.resume || !std::filesystem::exists(context.files.restart())) return std::nullopt;
+  return thermal::read_state(context.files.restart(), key);
+}
+
+// Multiples of the output interval, and the end.
+double next_output(const thermal::TimeOptions& options, double time) {
+  const double next = (std::floor(time / options.output_every + 1e-9) + 1) * options.output_every;
+  return std::min(next, options.until);
+}
+
+template <int dim>
+void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& recorder) {
+  const thermal::TimeOptions& options = context.scene.heat->time;
+  while (run.state().time < options.until) {
+    run.advance_to(next_output(options, run.state().time), [&](double time) {
+      check_interrupt();
+      context.progress.update(time / options.until, fmt::format("{:.4g} of {:.4g} s", time, options.until));
+    });
+    recorder.record(run.state());
+  }
+}
+
+}  // namespace
+
+template <int dim>
+HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& packing) {
+  const Scene& scene = context.scene;
+  HeatOutcome<dim> outcome;
+  outcome.pile = find_pile(context, packing);
+  outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()), [&] {
+    return thermal::make_heat_model(outcome.pile.mesh, scene.materials, outcome.pile.contacts, *scene.heat);
+  });
+  context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
+    auto state = interrupted_state(context, outcome.pile.key);
+    const auto from = state ? std::optional<double>(state->time) : std::nullopt;
+    if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
+    HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
+    thermal::HeatRun run = state ? thermal::HeatRun(outcome.model, scene.heat->time, std::move(*state))
+                                 : thermal::HeatRun(outcome.model, scene.heat->time);
+    if (!from) recorder.record(run.state());
+    march(context, run, recorder);
+    outcome.state = run.state();
+    outcome.solver = run.solver();
+    return true;
+  });
+  return outcome;
+}
+
+template HeatOutcome<2> heat_stage<2>(RunContext&, const packing::Packing<2>&);
+template HeatOutcome<3> heat_stage<3>(RunContext&, const packing::Packing<3>&);
+
+}  // namespace scree::run

@@ -1,0 +1,82 @@
+#include "tools/run/keys.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include "engine/base/hash.h"
+#include "engine/base/version.h"
+
+namespace scree::run {
+
+namespace {
+
+// The effective scene is written with every default filled in and in a fixed order, so its text tells what a section means.
+void add_section(Hasher& hash, const Scene& scene, const char* section) {
+  const YAML::Node root = YAML::Load(scene.effective);
+  hash.add(section);
+  if (root[section]) hash.add(YAML::Dump(root[section]));
+}
+
+void add(Hasher& hash, const std::optional<double>& value) {
+  hash.add(value.has_value());
+  hash.add(value.value_or(0.0));
+}
+
+template <int dim>
+void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
+  hash.add(dim);
+  for (const Point<dim>& node : mesh.nodes) hash.add_bytes(node.data(), sizeof(double) * dim);
+  for (const auto& element : mesh.elements) {
+    for (const NodeId node : element) hash.add(node.value());
+  }
+  for (const mesh::Block& block : mesh.blocks) {
+    hash.add(block.body.value()).add(block.nodes.size()).add(block.elements.size());
+  }
+  for (const mesh::Body& body : mesh.bodies) {
+    hash.add(body.name).add(body.material.value()).add(body.fixed);
+    hash.add_bytes(body.velocity.data(), sizeof(double) * 3);
+  }
+}
+
+}  // namespace
+
+template <int dim>
+std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
+  Hasher hash;
+  hash.add("packing").add(version());
+  add_mesh(hash, mesh);
+  for (const Material& material : scene.materials) {
+    add(hash, material.density);
+    hash.add(material.friction).add(material.restitution);
+  }
+  add_section(hash, scene, "settle");
+  return hash.hex();
+}
+
+template <int dim>
+std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing) {
+  Hasher hash;
+  hash.add("heat").add(version());
+  add_mesh(hash, packing.mesh);
+  for (const Pose& pose : packing.poses) {
+    hash.add_bytes(pose.translation.data(), sizeof(double) * 3);
+    hash.add_bytes(pose.rotation.coeffs().data(), sizeof(double) * 4);
+  }
+  for (const Material& material : scene.materials) {
+    add(hash, material.density);
+    add(hash, material.conductivity);
+    add(hash, material.specific_heat);
+  }
+  for (const char* section : {"contact", "heat", "output"}) add_section(hash, scene, section);
+  return hash.hex();
+}
+
+std::string scene_hash(const Scene& scene) {
+  return Hasher{}.add(scene.effective).hex();
+}
+
+template std::string packing_key<2>(const Scene&, const mesh::BlockMesh<2>&);
+template std::string packing_key<3>(const Scene&, const mesh::BlockMesh<3>&);
+template std::string heat_key<2>(const Scene&, const packing::Packing<2>&);
+template std::string heat_key<3>(const Scene&, const packing::Packing<3>&);
+
+}  // namespace scree::run

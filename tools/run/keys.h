@@ -1,0 +1,22 @@
+// What a stage's result depends on, as one hash: equal keys, equal results.
+#pragma once
+
+#include <string>
+
+#include "engine/packing/packing.h"
+#include "tools/scene/scene.h"
+
+namespace scree::run {
+
+// Blocks, the mechanical properties of their materials, and the scene's `settle` section.
+template <int dim>
+std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh);
+
+// The packing, the thermal properties of the materials, and the scene's `contact`, `heat` and `output` sections.
+template <int dim>
+std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing);
+
+// Of the effective scene, for the summary.
+std::string scene_hash(const Scene& scene);
+
+}  // namespace scree::run

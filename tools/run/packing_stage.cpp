@@ -1,0 +1,97 @@
+#include "tools/run/packing_stage.h"
+
+#include <fmt/format.h>
+
+#include "engine/mesh/make_blocks.h"
+#include "engine/output/read_vtu.h"
+#include "engine/output/series.h"
+#include "engine/rigid/settle.h"
+#include "tools/run/frames.h"
+#include "tools/run/keys.h"
+
+namespace scree::run {
+
+namespace {
+
+[[noreturn]] void refuse_packing(const Scene& scene, const std::string& rule) {
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = "packing";
+  problem.value = scene.packing->string();
+  problem.rule = rule;
+  problem.suggestion = "Name the bodies of the scene that made the packing, in its order";
+  throw InputError(problem);
+}
+
+// The bodies of a packing file must be those of the scene, since boundaries and materials speak of them.
+template <int dim>
+void adopt_scene_bodies(const Scene& scene, packing::Packing<dim>& packing) {
+  auto& bodies = packing.mesh.bodies;
+  if (bodies.size() != scene.bodies.size()) {
+    refuse_packing(scene, fmt::format("it holds {} bodies, the scene {}", bodies.size(), scene.bodies.size()));
+  }
+  for (const BodyId id : bodies.ids()) {
+    const mesh::BodySpec& spec = scene.bodies[id.index()];
+    if (bodies[id].name != spec.name) {
+      refuse_packing(scene,
+                     fmt::format("its body {} is called {}, the scene's {}", id.index() + 1, bodies[id].name, spec.name));
+    }
+    bodies[id].material = spec.material;
+  }
+}
+
+packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
+  const SettleStage& stage = *context.scene.settle;
+  output::Series series(context.files.directory, "settle");
+  const auto identity = identity_arrays(blocks);
+  const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {
+    series.write(grid_at(blocks, poses), {time, {}, identity});
+  };
+  const auto progress = [&](double time, double rms_speed) {
+    check_interrupt();
+    context.progress.update(time / stage.options.limit, fmt::format("{:.2f} s, rms speed {:.1e} m/s", time, rms_speed));
+  };
+  return rigid::settle(blocks, context.scene.materials, stage.options, frame, progress);
+}
+
+template <int dim>
+PackingOutcome<dim> from_file(RunContext& context) {
+  auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
+                               [&] { return packing::read<dim>(*context.scene.packing); });
+  adopt_scene_bodies(context.scene, packing);
+  return {std::move(packing), false};
+}
+
+PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
+  if (packing::stored_key(context.files.packing()) == key) {
+    context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
+    return {packing::read<3>(context.files.packing()), true};
+  }
+  auto packing =
+      context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
+  return {std::move(packing), false};
+}
+
+}  // namespace
+
+template <int dim>
+PackingOutcome<dim> packing_stage(RunContext& context) {
+  if (context.scene.packing) return from_file<dim>(context);
+  auto blocks = context.stage("mesh", fmt::format("{} bodies", context.scene.bodies.size()),
+                              [&] { return mesh::make_blocks<dim>(context.scene.bodies, output::mesh_readers()); });
+  const std::string key = packing_key(context.scene, blocks);
+  PackingOutcome<dim> outcome;
+  if (context.scene.settle) {
+    if constexpr (dim == 3) outcome = settled(context, blocks, key);
+  } else {
+    outcome = {packing::unmoved<dim>(std::move(blocks)), false};
+  }
+  outcome.packing.key = key;
+  if (!outcome.reused) packing::write(outcome.packing, context.files.packing());
+  return outcome;
+}
+
+template PackingOutcome<2> packing_stage<2>(RunContext&);
+template PackingOutcome<3> packing_stage<3>(RunContext&);
+
+}  // namespace scree::run

@@ -1,0 +1,18 @@
+// The files a run leaves behind (tools/README.md describes them for users).
+#pragma once
+
+#include <filesystem>
+
+namespace scree::run {
+
+struct RunFiles {
+  std::filesystem::path directory;
+
+  [[nodiscard]] std::filesystem::path scene() const { return directory / "scene.yaml"; }
+  [[nodiscard]] std::filesystem::path summary() const { return directory / "summary.json"; }
+  [[nodiscard]] std::filesystem::path packing() const { return directory / "packing.h5"; }
+  [[nodiscard]] std::filesystem::path probes() const { return directory / "probes.csv"; }
+  [[nodiscard]] std::filesystem::path restart() const { return directory / "heat.restart.h5"; }
+};
+
+}  // namespace scree::run

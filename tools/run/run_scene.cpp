@@ -1,0 +1,101 @@
+#include "tools/run/run_scene.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "tools/run/summary.h"
+#include "tools/scene/doctor.h"
+
+namespace scree::run {
+
+namespace {
+
+struct Ending {
+  std::string status;
+  int code = 0;
+  std::vector<std::string> reasons;  // why the code is not 0
+};
+
+void write_summary(const RunFiles& files, const Json& summary) {
+  write_text(files.summary(), summary.dump(2) + "\n");
+}
+
+void prepare_directory(const Scene& scene, const RunFiles& files) {
+  std::error_code error;
+  std::filesystem::create_directories(files.directory, error);
+  if (error)
+    throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
+  write_text(files.scene(), scene.effective);
+  // Until the run ends its summary says that it has not.
+  write_summary(files, opening_summary(scene, "running"));
+}
+
+void say_models(const Scene& scene, Progress& progress) {
+  for (const Model& model : models_of(scene)) {
+    progress.note(fmt::format("{}: {} ({})", model.modelled ? "model" : "left out", model.name, model.reason));
+  }
+}
+
+void say_costs(const std::vector<StageCost>& costs, Progress& progress) {
+  for (const StageCost& cost : costs) {
+    progress.note(fmt::format("cost: {:<10} {:9.2f} s {:9.1f} MB", cost.name, cost.wall_seconds,
+                              static_cast<double>(cost.peak_memory_bytes) / 1e6));
+  }
+}
+
+// Runs the stages the scene names and adds what they found to the summary.
+template <int dim>
+Ending run_stages(RunContext& context, Json& summary) {
+  const Scene& scene = context.scene;
+  const PackingOutcome<dim> outcome = packing_stage<dim>(context);
+  add_packing(summary, outcome);
+  if (outcome.packing.settled) {
+    auto reasons = unsound(scene, *outcome.packing.settled);
+    if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
+  }
+  if (!scene.heat) return {"complete", 0, {}};
+  const HeatOutcome<dim> heat = heat_stage(context, outcome.packing);
+  add_heat(summary, scene, heat);
+  auto reasons = unsound(scene, heat.state);
+  if (!reasons.empty()) return {"not_converged", 1, std::move(reasons)};
+  return {"complete", 0, {}};
+}
+
+Ending run_to_an_end(RunContext& context, Json& summary) {
+  try {
+    return context.scene.dimension == 2 ? run_stages<2>(context, summary) : run_stages<3>(context, summary);
+  } catch (const Interrupted&) {
+    return {
+        "interrupted",
+        130,
+        {fmt::format("interrupted; `scree resume {}` goes on from the last finished time", context.files.directory.string())}};
+  } catch (const InputError& error) {
+    return {"bad_input", 2, {error.what()}};
+  } catch (const std::exception& error) {
+    return {"failed", 1, {error.what()}};
+  }
+}
+
+}  // namespace
+
+int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress) {
+  catch_interrupts();
+  prepare_directory(scene, files);
+  say_models(scene, progress);
+  RunContext context{scene, files, progress, start == Start::resume};
+  Json summary = opening_summary(scene, "running");
+  const Ending ending = run_to_an_end(context, summary);
+  summary["status"] = ending.status;
+  if (!ending.reasons.empty()) summary["reasons"] = ending.reasons;
+  add_stages(summary, context.costs);
+  write_summary(files, summary);
+  say_costs(context.costs, progress);
+  progress.note(fmt::format("{}: {}", ending.status, files.directory.string()));
+  for (const std::string& reason : ending.reasons) fmt::print(stderr, "scree: {}\n", reason);
+  return ending.code;
+}
+
+}  // namespace scree::run

@@ -1,0 +1,16 @@
+// One run, from a scene to its files.
+#pragma once
+
+#include "engine/base/progress.h"
+#include "tools/run/run_files.h"
+#include "tools/scene/scene.h"
+
+namespace scree::run {
+
+enum class Start { fresh, resume };
+
+// The exit status of the command: 0 complete and sound; 1 did not settle, converge, balance, or could not go on; 2 bad input;
+// 130 interrupted.
+int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress);
+
+}  // namespace scree::run

@@ -1,0 +1,172 @@
+#include "tools/run/summary.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/version.h"
+#include "thermal/joint_report.h"
+#include "tools/run/keys.h"
+#include "tools/scene/doctor.h"
+
+namespace scree::run {
+
+namespace {
+
+// Largest ledger residual of a sound run, relative to the heat that flowed.
+constexpr double largest_ledger_residual = 1e-8;
+
+template <int dim>
+Json settle_json(const packing::Packing<dim>& packing, bool reused) {
+  const packing::SettleReport& report = *packing.settled;
+  Json lost = Json::array();
+  for (const BlockId block : report.lost_blocks) {
+    const BodyId body = packing.mesh.blocks[block].body;
+    lost.push_back({{"block", block.value()}, {"body", packing.mesh.bodies[body].name}});
+  }
+  return {{"at_rest", report.at_rest},
+          {"criterion", report.criterion},
+          {"simulated_time", report.simulated_time},
+          {"rms_speed", report.rms_speed},
+          {"max_speed", report.max_speed},
+          {"unbalanced_force", report.unbalanced_force},
+          {"max_displacement", report.max_displacement},
+          {"window", report.window},
+          {"max_penetration", report.max_penetration},
+          {"mean_penetration", report.mean_penetration},
+          {"mean_edge", report.mean_edge},
+          {"lost_blocks", report.lost_blocks.size()},
+          {"lost", std::move(lost)},
+          {"top", report.top},
+          {"reused", reused},
+          {"packing_key", packing.key}};
+}
+
+Json ledger_json(const thermal::Ledger& ledger, const thermal::HeatModel& model) {
+  Json boundaries = Json::object();
+  for (std::size_t i = 0; i < model.boundary_names.size(); ++i) boundaries[model.boundary_names[i]] = ledger.by_boundary[i];
+  Json applied = Json::object();
+  for (std::size_t i = 0; i < model.applied_flows.size(); ++i) applied[model.applied_flows[i].first] = ledger.by_applied[i];
+  return {{"start_jump", ledger.start_jump}, {"by_boundary", std::move(boundaries)}, {"by_applied", std::move(applied)},
+          {"stored", ledger.stored},         {"turnover", ledger.turnover},          {"residual", ledger.residual()}};
+}
+
+template <int dim>
+Json joints_json(const HeatOutcome<dim>& outcome, const Scene& scene) {
+  const auto& pile = outcome.pile;
+  const thermal::JointOptions& joint = scene.heat->joint;
+  const auto flows = thermal::contact_flows(pile.contacts, pile.conductances, outcome.state.temperature, joint.form);
+  Json joints = Json::array();
+  for (const auto& report : thermal::joint_reports(pile.mesh, scene.materials, pile.contacts, joint, flows)) {
+    joints.push_back({{"first", pile.mesh.bodies[report.first].name},
+                      {"second", pile.mesh.bodies[report.second].name},
+                      {"point_face", report.point_face},
+                      {"edge_edge", report.edge_edge},
+                      {"stiffness_factor", report.stiffness_factor},
+                      {"area", report.area},
+                      {"touching_area", report.touching_area},
+                      {"least_conductance", report.least_conductance},
+                      {"mean_conductance", report.mean_conductance},
+                      {"largest_conductance", report.largest_conductance},
+                      {"joint_conductance", report.joint_conductance},
+                      {"biot", report.biot},
+                      {"flow", report.flow},
+                      {"absolute_flow", report.absolute_flow}});
+  }
+  return joints;
+}
+
+template <int dim>
+Json probes_json(const HeatOutcome<dim>& outcome) {
+  Json probes = Json::object();
+  for (const auto& probe : outcome.pile.probes) {
+    const mesh::Block& block = outcome.pile.mesh.blocks[probe.block];
+    probes[probe.name] = {{"block", probe.block.value()},
+                          {"body", outcome.pile.mesh.bodies[block.body].name},
+                          {"point", std::vector<double>(probe.point.begin(), probe.point.end())},
+                          {"moved", probe.moved},
+                          {"temperature", output::value_at(probe, outcome.pile.mesh, outcome.state.temperature)}};
+  }
+  return probes;
+}
+
+}  // namespace
+
+Json opening_summary(const Scene& scene, const std::string& status) {
+  Json models = Json::array();
+  for (const Model& model : models_of(scene)) {
+    if (model.modelled) models.push_back({{"name", model.name}, {"reason", model.reason}});
+  }
+  return {{"status", status},     {"scene", scene.file.string()}, {"scene_hash", scene_hash(scene)},
+          {"version", version()}, {"title", scene.title},         {"models", std::move(models)}};
+}
+
+template <int dim>
+void add_packing(Json& summary, const PackingOutcome<dim>& outcome) {
+  const auto& mesh = outcome.packing.mesh;
+  summary["blocks"] = mesh.blocks.size();
+  summary["elements"] = mesh.elements.size();
+  summary["nodes"] = mesh.nodes.size();
+  if (outcome.packing.settled) summary["settle"] = settle_json(outcome.packing, outcome.reused);
+}
+
+template <int dim>
+void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome) {
+  const auto& contacts = outcome.pile.contacts;
+  summary["contacts"] = {{"point_face", contacts.count(contact::Kind::point_face)},
+                         {"edge_edge", contacts.count(contact::Kind::edge_edge)},
+                         {"semi_springs", contacts.semi_springs},
+                         {"semi_edges", contacts.semi_edges}};
+  summary["joints"] = joints_json(outcome, scene);
+  const thermal::HeatState& state = outcome.state;
+  summary["heat"] = {{"time", state.time},
+                     {"ledger_residual", state.ledger.relative_residual()},
+                     {"time_error", state.time_error},
+                     {"tolerance", scene.heat->time.tolerance},
+                     {"steps", state.steps},
+                     {"rejected_steps", state.rejected_steps},
+                     {"least_step", state.least_step},
+                     {"largest_step", state.largest_step},
+                     {"factorisations", state.factorisations},
+                     {"solver", outcome.solver},
+                     {"ledger", ledger_json(state.ledger, outcome.model)},
+                     {"probes", probes_json(outcome)},
+                     {"least_temperature", state.temperature.minCoeff()},
+                     {"largest_temperature", state.temperature.maxCoeff()}};
+}
+
+void add_stages(Json& summary, const std::vector<StageCost>& costs) {
+  Json stages = Json::array();
+  for (const StageCost& cost : costs) {
+    stages.push_back({{"name", cost.name}, {"wall_seconds", cost.wall_seconds}, {"peak_memory_bytes", cost.peak_memory_bytes}});
+  }
+  summary["stages"] = std::move(stages);
+}
+
+std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report) {
+  if (report.at_rest || (scene.settle && scene.settle->accept_moving)) return {};
+  return {
+      fmt::format("the pile was still moving at {:.3g} s (rms speed {:.2e} m/s, unbalanced force {:.2e}; at rest is: {}). "
+                  "Raise settle.limit, or accept it with settle.accept_moving",
+                  report.simulated_time, report.rms_speed, report.unbalanced_force, report.criterion)};
+}
+
+std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& state) {
+  std::vector<std::string> reasons;
+  const double tolerance = scene.heat->time.tolerance;
+  if (!(state.time_error <= tolerance)) {
+    reasons.push_back(
+        fmt::format("the time error reached {:.3g} K, above heat.tolerance of {:.3g} K", state.time_error, tolerance));
+  }
+  const double residual = state.ledger.relative_residual();
+  if (!(residual <= largest_ledger_residual)) {
+    reasons.push_back(fmt::format("the energy ledger does not close: {:.2e} of the heat that flowed is missing (limit {:.0e})",
+                                  residual, largest_ledger_residual));
+  }
+  return reasons;
+}
+
+template void add_packing<2>(Json&, const PackingOutcome<2>&);
+template void add_packing<3>(Json&, const PackingOutcome<3>&);
+template void add_heat<2>(Json&, const Scene&, const HeatOutcome<2>&);
+template void add_heat<3>(Json&, const Scene&, const HeatOutcome<3>&);
+
+}  // namespace scree::run

@@ -1,0 +1,32 @@
+// The run's evidence as JSON: summary.json (tools/README.md lists its keys; SI units throughout).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/stage_clock.h"
+#include "tools/run/heat_stage.h"
+#include "tools/run/packing_stage.h"
+
+namespace scree::run {
+
+using Json = nlohmann::ordered_json;
+
+// What a summary says before anything is known: the status, the program, the scene.
+Json opening_summary(const Scene& scene, const std::string& status);
+
+template <int dim>
+void add_packing(Json& summary, const PackingOutcome<dim>& outcome);
+
+template <int dim>
+void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome);
+
+void add_stages(Json& summary, const std::vector<StageCost>& costs);
+
+// Why a finished run is not sound; empty if it is. Each entry names the figure and what to change.
+std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report);
+std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& state);
+
+}  // namespace scree::run

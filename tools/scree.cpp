@@ -1,0 +1,118 @@
+// The command: run, resume, check, keys, schema, render. Exit status: 0 complete and sound; 1 the run was not; 2 bad input.
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "engine/base/check.h"
+#include "engine/base/key_reference.h"
+#include "engine/base/progress.h"
+#include "engine/base/version.h"
+#include "engine/mesh/make_blocks.h"
+#include "engine/output/read_vtu.h"
+#include "tools/render_command.h"
+#include "tools/run/run_scene.h"
+#include "tools/scene/doctor.h"
+#include "tools/scene/keys.h"
+#include "tools/scene/read_scene.h"
+
+namespace {
+
+using scree::run::RunFiles;
+
+struct Arguments {
+  std::string scene;
+  std::string directory;
+  std::vector<std::string> overrides;
+  std::string prefix;
+  bool quiet = false;
+  scree::RenderArguments render;
+};
+
+void add_scene(CLI::App& command, Arguments& arguments) {
+  command.add_option("scene", arguments.scene, "the scene, a YAML file")->required();
+  command.add_option("--set", arguments.overrides, "replace a key of the scene: --set heat.until=\"2 h\"")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+}
+
+std::string default_directory(const std::string& scene) {
+  return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
+}
+
+int run(const Arguments& arguments) {
+  const scree::Scene scene = scree::read_scene(arguments.scene, arguments.overrides);
+  scree::Progress progress(scree::progress_mode(arguments.quiet));
+  const std::string directory = arguments.directory.empty() ? default_directory(arguments.scene) : arguments.directory;
+  return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress);
+}
+
+int resume(const Arguments& arguments) {
+  const RunFiles files{arguments.directory};
+  const scree::Scene scene = scree::read_scene(files.scene(), {});
+  scree::Progress progress(scree::progress_mode(arguments.quiet));
+  return scree::run::run_scene(scene, files, scree::run::Start::resume, progress);
+}
+
+template <int dim>
+std::string check_report(const scree::Scene& scene) {
+  return scree::to_text(scree::check_scene(scene, scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers())));
+}
+
+int check(const Arguments& arguments) {
+  const scree::Scene scene = scree::read_scene(arguments.scene, arguments.overrides);
+  fmt::print("{}", scene.dimension == 2 ? check_report<2>(scene) : check_report<3>(scene));
+  return 0;
+}
+
+int dispatch(CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("run")) return run(arguments);
+  if (app.got_subcommand("resume")) return resume(arguments);
+  if (app.got_subcommand("check")) return check(arguments);
+  if (app.got_subcommand("render")) return scree::render_command(arguments.render);
+  const scree::KeyTable& keys = scree::scene_keys();
+  fmt::print(
+      "{}", app.got_subcommand("keys") ? scree::key_reference(keys, arguments.prefix) : scree::key_schema(keys, "Scree scene"));
+  return 0;
+}
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.set_version_flag("--version", scree::version_text());
+  app.require_subcommand(1);
+  CLI::App* run = app.add_subcommand("run", "run a scene");
+  add_scene(*run, arguments);
+  run->add_option("--out", arguments.directory, "where the results go (default: out/ and the scene's name)");
+  CLI::App* resume = app.add_subcommand("resume", "go on with an interrupted run from its last finished time");
+  resume->add_option("directory", arguments.directory, "the interrupted run's --out")->required();
+  for (CLI::App* command : {run, resume}) command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+  CLI::App* check = app.add_subcommand("check", "find everything wrong or suspicious in a scene without running it");
+  add_scene(*check, arguments);
+  CLI::App* keys = app.add_subcommand("keys", "print every key of a scene, its unit, default and rule");
+  keys->add_option("prefix", arguments.prefix, "only keys that begin with this, such as heat");
+  app.add_subcommand("schema", "print the JSON schema of a scene, for editors");
+  scree::declare_render(*app.add_subcommand("render", "draw a picture of a run, without a screen"), arguments.render);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Scree: bodies fall apart into blocks, pile up and are heated.", "scree");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+    return dispatch(app, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const scree::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "scree: {}\n", error.what());
+    return 1;
+  }
+}
