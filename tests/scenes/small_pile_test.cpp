@@ -1,5 +1,8 @@
 // scenes/small_pile: the whole chain.
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/scenes/scene_run.h"
@@ -44,6 +47,30 @@ TEST_F(SmallPile, WarmsAtItsProbe) {
   ASSERT_EQ(inside.size(), 13u);
   EXPECT_DOUBLE_EQ(inside.front(), 273.15 + 25);
   EXPECT_GT(inside.back(), 273.15 + 50);
+}
+
+TEST_F(SmallPile, DiffersFromAHundredthOfItsToleranceByLessThanItsTolerance) {
+  const auto directory = fresh_directory("small_pile_finer");
+  std::filesystem::copy(run_->directory / "packing.h5", directory / "packing.h5");
+  const SceneRun finer = test::run("small_pile", directory, {"heat.tolerance=0.001 K"});
+  EXPECT_EQ(finer.exit_status, 0);
+  EXPECT_GT(finer.summary["heat"]["steps"], 3 * run_->summary["heat"]["steps"].get<int>());
+  const auto coarse = run_->probes().at("inside");
+  const auto fine = finer.probes().at("inside");
+  double largest = 0;
+  for (std::size_t i = 0; i < coarse.size(); ++i) largest = std::max(largest, std::abs(coarse[i] - fine[i]));
+  EXPECT_LT(largest, 0.1);
+  EXPECT_GT(largest, 0.0);
+}
+
+TEST_F(SmallPile, NamesTheNearestBlockOfAProbeInAVoid) {
+  const auto directory = fresh_directory("small_pile_void");
+  std::filesystem::copy(run_->directory / "packing.h5", directory / "packing.h5");
+  const SceneRun lost = test::run("small_pile", directory, {"output.probes.inside={point: [0, 0, 0.6], reach: 0}"});
+  EXPECT_EQ(lost.exit_status, 2);
+  EXPECT_EQ(lost.summary["status"], "bad_input");
+  EXPECT_NE(lost.summary["reasons"][0].get<std::string>().find("nearest"), std::string::npos) << lost.summary["reasons"][0];
+  EXPECT_FALSE(std::filesystem::exists(directory / "heat.pvd"));
 }
 
 TEST_F(SmallPile, StatesTheCostOfEveryStage) {
