@@ -16,7 +16,8 @@ struct SettleOptions {
   // Drag, per mass [1/s]: a block falls no faster than gravity over this. It is taken away once the pile is at rest under it,
   // and the pile must then be at rest without it. At most 1 / step.
   double viscous_damping = 0;
-  // Blocks are let go one by one, the lowest first, evenly over this time [s]; the others hang where they were meshed, and
+  // Blocks are let go one by one, evenly over this time [s], from the lower rim of the load to the middle of its top: in the
+  // order of height less distance from the vertical through its centre of mass. The others hang where they were meshed, and
   // touch nothing, until it is their turn. 0 lets all of them go at once.
   double release_time = 0;
   double rest_speed = 1e-3;             // root mean square speed below which a pile may be at rest [m/s]

@@ -1,6 +1,9 @@
 #include "engine/rigid/world.h"
 
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
@@ -120,11 +123,7 @@ World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& 
   for (const BlockId block : mesh.blocks.ids())
     add_block(mesh, block, materials[mesh.bodies[mesh.blocks[block].body].material]);
   if (options.release_time > 0) {
-    const btVector3 down = to_bullet(options.gravity);
-    std::stable_sort(order_.begin(), order_.end(), [&](BlockId a, BlockId b) {
-      return items_[a.index()].body->getCenterOfMassPosition().dot(down) >
-             items_[b.index()].body->getCenterOfMassPosition().dot(down);
-    });
+    sort_from_the_rim_up(options.gravity);
   } else {
     release(order_.size());
   }
@@ -163,6 +162,24 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
     item.body->setLinearVelocity(to_bullet(owner.velocity));
     order_.push_back(block);
   }
+}
+
+void World::sort_from_the_rim_up(const Eigen::Vector3d& gravity) {
+  const btVector3 up = to_bullet(-gravity.normalized());
+  btVector3 centre(0, 0, 0);
+  double mass = 0;
+  for (const BlockId block : order_) {
+    const Item& item = items_[block.index()];
+    centre += item.mass * item.body->getCenterOfMassPosition();
+    mass += item.mass;
+  }
+  std::vector<double> rank(items_.size());
+  for (const BlockId block : order_) {
+    const btVector3 arm = items_[block.index()].body->getCenterOfMassPosition() - centre / mass;
+    const double height = arm.dot(up);
+    rank[block.index()] = height - (arm - height * up).length();
+  }
+  std::stable_sort(order_.begin(), order_.end(), [&](BlockId a, BlockId b) { return rank[a.index()] < rank[b.index()]; });
 }
 
 void World::release(std::size_t count) {

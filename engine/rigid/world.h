@@ -22,7 +22,7 @@ class World {
   // One step of collision detection, contact solution and integration.
   void step(double time_step, int iterations);
 
-  // Lets go the lowest of the blocks that still hang, until `count` were let go in all.
+  // Lets go the next of the blocks that still hang, until `count` were let go in all.
   void release(std::size_t count);
   [[nodiscard]] std::size_t hanging() const { return order_.size() - released_; }
   [[nodiscard]] std::size_t movable() const { return order_.size(); }  // whether let go or not
@@ -45,6 +45,7 @@ class World {
  private:
   struct Bullet;
   struct Item;
+  void sort_from_the_rim_up(const Eigen::Vector3d& gravity);
   void add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material);
 
   std::unique_ptr<Bullet> bullet_;
