@@ -1,6 +1,5 @@
 #include "engine/rigid/fall.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -68,11 +67,9 @@ std::int64_t skip_free_fall(World& world, const mesh::BlockMesh<3>& mesh, const 
     for (const Aabb<3>& obstacle : fixed) clear = clear && !box.intersects(obstacle);
     return clear;
   };
-  // The closed form holds while the drag does.
-  const double skippable = options.viscous_damping > 0 ? std::min(options.limit, options.viscous_damping_time) : options.limit;
   std::int64_t steps = 0;
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  while (!fixed.empty() && static_cast<double>(steps + 1) * options.step <= skippable && clear_after(steps + 1)) {
+  while (!fixed.empty() && static_cast<double>(steps + 1) * options.step <= options.limit && clear_after(steps + 1)) {
     ++steps;
     const Motion motion = fallen(*start, options, static_cast<double>(steps) * options.step);
     world.translate_free(motion.way - way, motion.velocity);

@@ -37,7 +37,6 @@ void check(const SettleOptions& options) {
   require(options.frame_interval > 0, "frame_interval", options.frame_interval, "positive, s");
   require(options.rest_window > 0, "rest_window", options.rest_window, "positive, s");
   require(options.release_time >= 0, "release_time", options.release_time, "not negative, s");
-  require(options.viscous_damping_time >= 0, "viscous_damping_time", options.viscous_damping_time, "not negative, s");
   require(options.iterations > 0, "iterations", options.iterations, "positive");
   require(options.local_damping >= 0 && options.local_damping < 1, "local_damping", options.local_damping, "in [0, 1)");
   require(options.viscous_damping >= 0 && options.viscous_damping * options.step <= 1, "viscous_damping",
@@ -125,7 +124,6 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   double viscous = options_.viscous_damping;
   Motion motion;
   while (!report.at_rest && time() + options_.step <= options_.limit * (1 + 1e-9)) {
-    if (time() >= options_.viscous_damping_time) viscous = 0;
     motion = advance(viscous);
     if (progress) progress(time(), motion.rms_speed);
     frames.offer(world_, time());

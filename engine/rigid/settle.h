@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 
 #include "engine/base/material.h"
 #include "engine/packing/packing.h"
@@ -17,8 +16,6 @@ struct SettleOptions {
   // Drag, per mass [1/s]: a block falls no faster than gravity over this. It is taken away once the pile is at rest under it,
   // and the pile must then be at rest without it. At most 1 / step.
   double viscous_damping = 0;
-  // The drag also ends at this time [s]: a heap that slumps under it creeps for as long as it lasts.
-  double viscous_damping_time = std::numeric_limits<double>::infinity();
   // Blocks are let go one by one, evenly over this time [s], from the lower rim of the load to the middle of its top: in the
   // order of height less distance from the vertical through its centre of mass. The others hang where they were meshed, and
   // touch nothing, until it is their turn. 0 lets all of them go at once.

@@ -104,7 +104,6 @@ std::vector<Change> world_changes() {
           {"settle.step", {}, "settle.step=1"},
           {"settle.local_damping", {}, "settle.local_damping=0.5"},
           {"settle.viscous_damping", {}, "settle.viscous_damping=1"},
-          {"settle.viscous_damping_time", {}, "settle.viscous_damping_time=1"},
           {"settle.release_time", {}, "settle.release_time=1"},
           {"settle.rest_displacement", {}, "settle.rest_displacement=1"},
           {"settle.iterations", {}, "settle.iterations=1"},

@@ -192,8 +192,6 @@ Keys settle_keys() {
       row("settle.viscous_damping", quantity, "Drag per mass while the blocks fall; they come to rest without it.", q::rate,
           not_negative)
           .fallback(with_unit(by_default.viscous_damping, "s-1")),
-      row("settle.viscous_damping_time", quantity, "The drag ends at this time.", q::time, not_negative)
-          .otherwise("when the pile is at rest under it"),
       row("settle.release_time", quantity, "Blocks are let go one by one, the lowest first, over this time; 0: all at once.",
           q::time, not_negative)
           .fallback(with_unit(by_default.release_time, "s")),

@@ -12,7 +12,6 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.step = settle.at("step").number();
   options.local_damping = settle.at("local_damping").number();
   options.viscous_damping = settle.at("viscous_damping").number();
-  if (const Checked* end = settle.find("viscous_damping_time")) options.viscous_damping_time = end->number();
   options.release_time = settle.at("release_time").number();
   options.rest_speed = settle.at("rest_speed").number();
   options.rest_unbalanced_force = settle.at("rest_unbalanced_force").number();
