@@ -54,6 +54,18 @@ void reduce_to_four(std::vector<ContactPoint>& points, const Vector3d& normal) {
   points.resize(4);
 }
 
+// An overlap without a contact would grow unseen. It has none if the face that was clipped does not hold the deepest vertex,
+// which is one overlap in a thousand.
+void add_deepest(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident,
+                 std::vector<ContactPoint>& points) {
+  const Vector3d& normal = reference.normals[face];
+  const Vector3d& deepest =
+      *std::min_element(incident.vertices.begin(), incident.vertices.end(),
+                        [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
+  const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
+  if (distance < 0) points.push_back({deepest - distance * normal, deepest, distance});
+}
+
 // Points of `incident` against a face of `reference`, whose points come first.
 std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident,
                                       double range) {
@@ -74,6 +86,7 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
     const double distance = normal.dot(point - reference.vertices[rim[0]]);
     if (distance <= range) points.push_back({point - distance * normal, point, distance});
   }
+  if (points.empty()) add_deepest(reference, face, incident, points);
   if (points.size() > 4) reduce_to_four(points, normal);
   return points;
 }

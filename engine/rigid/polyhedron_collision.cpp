@@ -75,7 +75,7 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   void write_points(const Pair& pair, const ContactPoints& contact);
   void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
-  void move_points(const Pair& pair);
+  void move_points(const Pair& pair, bool evaluated);
   void drop_manifold();
 
   const ContactRanges& ranges_;
@@ -93,7 +93,7 @@ void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first
   const Pair pair{first, second, reach, info.m_timeStep};
   const btTransform relative = first->getWorldTransform().inverseTimes(second->getWorldTransform());
   if (still_valid(pair, relative)) {
-    if (manifold_ != nullptr) move_points(pair);
+    if (manifold_ != nullptr) move_points(pair, false);
   } else {
     relative_ = relative;
     evaluate(pair);
@@ -156,7 +156,7 @@ void PolyhedronCollision::write_points(const Pair& pair, const ContactPoints& co
     set_bounce(pair, point, at);
   }
   inherit_impulses(old, old_count, 0.05 * static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius());
-  move_points(pair);
+  move_points(pair, true);
 }
 
 // Bullet lets a pair close its gap within the step and takes that from the rebound, and lets a pair rebound that will not touch
@@ -204,8 +204,8 @@ void PolyhedronCollision::inherit_impulses(const std::array<btManifoldPoint, 4>&
   }
 }
 
-// The points move with the pair.
-void PolyhedronCollision::move_points(const Pair& pair) {
+// The points move with the pair. Their distance follows, exactly so for a pair that does not turn.
+void PolyhedronCollision::move_points(const Pair& pair, bool evaluated) {
   const btTransform& first = pair.first->getCollisionObject()->getWorldTransform();
   const btTransform& second = pair.second->getCollisionObject()->getWorldTransform();
   const btVector3 normal = pair.first->getWorldTransform().getBasis() * normal_;
@@ -215,6 +215,7 @@ void PolyhedronCollision::move_points(const Pair& pair) {
     point.m_positionWorldOnA = first(point.m_localPointA);
     point.m_positionWorldOnB = second(point.m_localPointB);
     point.m_normalWorldOnB = normal;
+    if (!evaluated) point.m_distance1 = normal.dot(point.m_positionWorldOnA - point.m_positionWorldOnB);
     point.m_lateralFrictionDir1 = tangent;
     point.m_lateralFrictionDir2 = normal.cross(tangent);
   }

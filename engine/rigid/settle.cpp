@@ -22,6 +22,9 @@ namespace {
 // Pairs nearer than this part of the mean edge count as touching when the mean penetration is taken.
 constexpr double touching_range = 1e-3;
 
+// Drag has done its work when the pile moves slower than this part of the speed at which its blocks fell under it.
+constexpr double slow_under_drag = 0.02;
+
 void require(bool good, const char* key, double value, const char* rule) {
   if (good) return;
   Problem problem;
@@ -127,9 +130,12 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     motion = advance(viscous);
     if (progress) progress(time(), motion.rms_speed);
     frames.offer(world_, time());
-    if (!watch.observe(world_, motion, time()) || world_.hanging() > 0) continue;
-    report.at_rest = viscous == 0;
-    viscous = 0;
+    const bool rest = watch.observe(world_, motion, time());
+    report.at_rest = rest && viscous == 0 && world_.hanging() == 0;
+    if (viscous > 0 && world_.hanging() == 0 && motion.rms_speed < slow_under_drag * options_.gravity.norm() / viscous) {
+      viscous = 0;
+      watch = RestWatch(world_, options_, report.mean_edge, time());
+    }
   }
   frames.finish(world_, time());
   report.criterion = watch.criterion();
