@@ -91,7 +91,7 @@ class Settling {
   [[nodiscard]] Table<BlockId, Pose> poses() const { return world_.poses(); }
 
  private:
-  [[nodiscard]] double time() const { return static_cast<double>(steps_) * options_.step; }
+  [[nodiscard]] double time() const { return static_cast<double>(half_steps_) * options_.step / 2; }
   Motion advance(double viscous);
 
   const mesh::BlockMesh<3>& mesh_;
@@ -99,7 +99,8 @@ class Settling {
   World world_;
   Damping damping_;
   SceneBounds bounds_;
-  std::int64_t steps_ = 0;
+  std::int64_t half_steps_ = 0;  // time is counted in them, for the last part is made in half steps
+  bool halved_ = false;
   std::vector<BlockId> lost_;
 };
 
@@ -108,19 +109,20 @@ Motion Settling::advance(double viscous) {
     const double blocks = static_cast<double>(world_.movable());
     world_.release(static_cast<std::size_t>(std::min(1.0, time() / options_.release_time) * blocks) + 1);
   }
-  damping_.slow_down(world_, options_.local_damping, viscous, options_.step);
-  world_.step(options_.step, options_.iterations);
-  damping_.observe(world_, options_.step);
-  ++steps_;
+  const double step = halved_ ? options_.step / 2 : options_.step;
+  damping_.slow_down(world_, options_.local_damping, viscous, step);
+  world_.step(step, options_.iterations);
+  damping_.observe(world_, step);
+  half_steps_ += halved_ ? 1 : 2;
   for (const BlockId block : take_lost(world_, bounds_)) lost_.push_back(block);
-  return observe_motion(world_, damping_, options_.step);
+  return observe_motion(world_, damping_, step);
 }
 
 packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress& progress) {
   Frames frames(frame, options_.frame_interval);
   frames.offer(world_, 0);
-  steps_ = skip_free_fall(world_, mesh_, options_,
-                          [&](std::int64_t step) { frames.offer(world_, static_cast<double>(step) * options_.step); });
+  half_steps_ = 2 * skip_free_fall(world_, mesh_, options_,
+                                   [&](std::int64_t step) { frames.offer(world_, static_cast<double>(step) * options_.step); });
   packing::SettleReport report;
   report.mean_edge = mesh::mean_edge(mesh_);
   RestWatch watch(world_, options_, report.mean_edge, time());
@@ -134,6 +136,8 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     report.at_rest = rest && viscous == 0 && world_.hanging() == 0;
     if (viscous > 0 && world_.hanging() == 0 && motion.rms_speed < slow_under_drag * options_.gravity.norm() / viscous) {
       viscous = 0;
+      halved_ = true;
+      world_.scale_impulses(0.5);
       watch = RestWatch(world_, options_, report.mean_edge, time());
     }
   }

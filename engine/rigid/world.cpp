@@ -221,6 +221,18 @@ Table<BlockId, Pose> World::poses() const {
   return result;
 }
 
+void World::scale_impulses(double factor) {
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
+    for (int j = 0; j < manifold.getNumContacts(); ++j) {
+      btManifoldPoint& point = manifold.getContactPoint(j);
+      point.m_appliedImpulse *= factor;
+      point.m_appliedImpulseLateral1 *= factor;
+      point.m_appliedImpulseLateral2 *= factor;
+    }
+  }
+}
+
 double World::mean_contact_force(double time_step) const {
   double sum = 0;
   double pairs = 0;

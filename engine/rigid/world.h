@@ -22,6 +22,8 @@ class World {
   // One step of collision detection, contact solution and integration.
   void step(double time_step, int iterations);
 
+  // Fits the contact impulses the next step starts from to a time step changed by `factor`.
+  void scale_impulses(double factor);
   // Lets go the next of the blocks that still hang, until `count` were let go in all.
   void release(std::size_t count);
   [[nodiscard]] std::size_t hanging() const { return order_.size() - released_; }
