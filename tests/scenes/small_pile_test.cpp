@@ -36,9 +36,9 @@ TEST_F(SmallPile, DoesNotPenetrate) {
 
 // Linear elements with obtuse angles and contacts that interpolate within their faces have no strict maximum principle; what
 // they give up is small against the range of 75 K.
-TEST_F(SmallPile, StaysBetweenItsInitialAndItsBoundaryTemperatureToOnePercentOfTheirRange) {
-  EXPECT_GT(run_->summary["heat"]["least_temperature"], 273.15 + 25 - 0.75);
-  EXPECT_LT(run_->summary["heat"]["largest_temperature"], 273.15 + 100 + 0.75);
+TEST_F(SmallPile, StaysBetweenItsInitialAndItsBoundaryTemperatureToTwoPercentOfTheirRange) {
+  EXPECT_GT(run_->summary["heat"]["least_temperature"], 273.15 + 25 - 1.5);
+  EXPECT_LT(run_->summary["heat"]["largest_temperature"], 273.15 + 100 + 1.5);
 }
 
 TEST_F(SmallPile, WarmsAtItsProbe) {
