@@ -6,6 +6,7 @@ if(TARGET scree_tool)
 endif()
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scree/scenes)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY scenes/pictures/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes/pictures)
 
 # The READMEs keep their places, so that the links between them hold.
 file(GLOB readmes RELATIVE ${PROJECT_SOURCE_DIR} README.md)
