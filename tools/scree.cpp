@@ -1,4 +1,5 @@
-// The command: run, resume, check, keys, schema, render. Exit status: 0 complete and sound; 1 the run was not; 2 bad input.
+// The command: run, resume, check, keys, schema, render, accuracy. Exit status: 0 complete and sound; 1 the run was not; 2 bad
+// input.
 
 #include <cstdio>
 #include <exception>
@@ -14,6 +15,7 @@
 #include "engine/base/version.h"
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
+#include "tools/accuracy/accuracy_command.h"
 #include "tools/render_command.h"
 #include "tools/run/run_scene.h"
 #include "tools/scene/doctor.h"
@@ -31,6 +33,7 @@ struct Arguments {
   std::string prefix;
   bool quiet = false;
   scree::RenderArguments render;
+  scree::accuracy::Arguments accuracy;
 };
 
 void add_scene(CLI::App& command, Arguments& arguments) {
@@ -74,6 +77,7 @@ int dispatch(CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("render")) return scree::render_command(arguments.render);
+  if (app.got_subcommand("accuracy")) return scree::accuracy::run(arguments.accuracy);
   const scree::KeyTable& keys = scree::scene_keys();
   fmt::print(
       "{}", app.got_subcommand("keys") ? scree::key_reference(keys, arguments.prefix) : scree::key_schema(keys, "Scree scene"));
@@ -95,6 +99,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   keys->add_option("prefix", arguments.prefix, "only keys that begin with this, such as heat");
   app.add_subcommand("schema", "print the JSON schema of a scene, for editors");
   scree::declare_render(*app.add_subcommand("render", "draw a picture of a run, without a screen"), arguments.render);
+  scree::accuracy::declare(*app.add_subcommand("accuracy", "error against cost: a scene over meshes, tolerances and models"),
+                           arguments.accuracy);
 }
 
 }  // namespace

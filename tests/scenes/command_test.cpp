@@ -1,5 +1,6 @@
 // The command as a user meets it: exit statuses, and that bad input leaves nothing behind.
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
@@ -73,6 +74,18 @@ TEST(Command, RefusesWordsItDoesNotKnowWithStatusTwo) {
   EXPECT_EQ(scree("run").status, 2);
   EXPECT_EQ(scree("run nowhere.yaml").status, 2);
   EXPECT_EQ(scree("--help").status, 0);
+}
+
+TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
+  const auto directory = fresh_directory("accuracy");
+  const Outcome outcome = scree(
+      "accuracy " + scene("slab") +
+      " --quiet --mesh 2 1 --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --set heat.until=\"10 s\" --out " + directory.string());
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("observed order in time step"), std::string::npos) << outcome.text;
+  EXPECT_GT(std::filesystem::file_size(directory / "accuracy.png"), 10000u);
+  const std::string table = contents(directory / "accuracy.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
 }
 
 TEST(Command, DrawsARunWithoutAScreen) {

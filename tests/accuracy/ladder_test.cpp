@@ -1,0 +1,48 @@
+#include "tools/accuracy/ladder.h"
+
+#include <gtest/gtest.h>
+
+#include "tools/scene/read_scene.h"
+
+namespace scree::accuracy {
+namespace {
+
+Scene scene(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return read_scene(std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / (name + ".yaml"), overrides);
+}
+
+TEST(Ladder, VariesMeshAndToleranceUnlessTold) {
+  const Scene slab = scene("slab");
+  const auto ladder = ladder_of(slab, {});
+  EXPECT_EQ(ladder.size(), 9u);
+  EXPECT_DOUBLE_EQ(ladder.front().mesh_factor, 2);
+  const Rung& best = ladder[finest(ladder)];
+  EXPECT_DOUBLE_EQ(best.mesh_factor, 0.5);
+  EXPECT_DOUBLE_EQ(best.tolerance, 0.1 * slab.heat->time.tolerance);
+}
+
+TEST(Ladder, LeavesTheMeshOfBlocksThatFallAlone) {
+  for (const Rung& rung : ladder_of(scene("small_pile"), {})) EXPECT_DOUBLE_EQ(rung.mesh_factor, 1);
+  LadderOptions options;
+  options.mesh_factors = {1, 0.5};
+  EXPECT_THROW(ladder_of(scene("small_pile"), options), InputError);
+}
+
+TEST(Ladder, RunsTheExplicitSchemeOncePerMeshSinceItsStepsFollowFromStability) {
+  LadderOptions options;
+  options.mesh_factors = {1};
+  options.integrators = {"explicit_euler"};
+  EXPECT_EQ(ladder_of(scene("slab"), options).size(), 1u);
+}
+
+TEST(Ladder, EveryRungIsASceneThatReads) {
+  const Scene slab = scene("slab");
+  for (const Rung& rung : ladder_of(slab, {})) {
+    const Scene varied = scene("slab", overrides_of(slab, rung));
+    EXPECT_DOUBLE_EQ(varied.bodies[0].mesh_size, rung.mesh_factor * slab.bodies[0].mesh_size);
+    EXPECT_DOUBLE_EQ(varied.heat->time.tolerance, rung.tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace scree::accuracy

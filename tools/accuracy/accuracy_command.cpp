@@ -1,0 +1,160 @@
+#include "tools/accuracy/accuracy_command.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+#include "engine/base/progress.h"
+#include "engine/base/units.h"
+#include "tools/accuracy/analysis.h"
+#include "tools/accuracy/child_run.h"
+#include "tools/accuracy/report.h"
+#include "tools/run/run_files.h"
+#include "tools/scene/read_scene.h"
+
+namespace scree::accuracy {
+
+namespace {
+
+using run::RunFiles;
+namespace fs = std::filesystem;
+
+double kelvin_difference(const std::string& text) {
+  const auto parsed = parse_quantity(text, quantity::temperature_difference);
+  if (const auto* number = std::get_if<double>(&parsed); number != nullptr && *number > 0) return *number;
+  Problem problem;
+  problem.key = "--tolerance";
+  problem.value = text;
+  problem.rule = "must be a positive temperature difference, such as \"0.1 K\"";
+  throw InputError(problem);
+}
+
+void check_scene(const Scene& scene) {
+  if (scene.heat && !scene.probes.empty()) return;
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = "output.probes";
+  problem.value = scene.heat ? "empty" : "without heat";
+  problem.rule = "must name at least one point, since errors are compared at the probes";
+  throw InputError(problem);
+}
+
+// The figures of a run from its summary; a run that left none keeps zeros.
+void read_summary(const RunFiles& files, Measured& measured) {
+  std::ifstream stream(files.summary());
+  const auto summary = nlohmann::json::parse(stream, nullptr, false);
+  if (summary.is_discarded() || !summary.contains("heat")) return;
+  measured.nodes = summary.at("nodes");
+  measured.elements = summary.at("elements");
+  measured.steps = summary.at("heat").value("steps", std::int64_t{0});
+  measured.time_error = summary.at("heat").value("time_error", 0.0);
+  for (const auto& stage : summary.at("stages")) {
+    const std::string name = stage.at("name");
+    if (name == "contacts" || name == "assemble" || name == "heat")
+      measured.wall_seconds += stage.at("wall_seconds").get<double>();
+    measured.peak_memory_bytes = std::max(measured.peak_memory_bytes, stage.at("peak_memory_bytes").get<double>());
+  }
+}
+
+class Study {
+ public:
+  Study(const Arguments& arguments, const Scene& scene, fs::path directory)
+      : arguments_(arguments), scene_(scene), directory_(std::move(directory)) {}
+
+  // Every run starts from the packing of the first, if the blocks fall.
+  Measured make(const Rung& rung, std::size_t number) {
+    const RunFiles files{run_directory(number)};
+    fs::create_directories(files.directory);
+    const RunFiles first{run_directory(0)};
+    if (number > 0 && scene_.settle && fs::exists(first.packing())) {
+      fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);
+    }
+    std::vector<std::string> words{"run", fs::absolute(scene_.file).string(), "--quiet", "--out", files.directory.string()};
+    for (const auto& overrides : {arguments_.overrides, overrides_of(scene_, rung)}) {
+      for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
+    }
+    const ChildRun child = run_child(words, files.directory / "log");
+    Measured measured;
+    measured.rung = rung;
+    measured.exit_status = child.exit_status;
+    measured.whole_wall_seconds = child.wall_seconds;
+    read_summary(files, measured);
+    return measured;
+  }
+
+  [[nodiscard]] fs::path run_directory(std::size_t number) const { return directory_ / fmt::format("run_{:02}", number); }
+
+ private:
+  const Arguments& arguments_;
+  const Scene& scene_;
+  fs::path directory_;
+};
+
+// Errors of all runs but the reference's. A run that went wrong in time (status 1) has temperatures all the same, and its error
+// is worth knowing.
+void compare_all(const Study& study, std::size_t finest_run, std::vector<Measured>& runs) {
+  const auto probes = [&](std::size_t i) { return read_probes(RunFiles{study.run_directory(i)}.probes().string()); };
+  const Reference reference = reference_from(probes(finest_run));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i != finest_run && runs[i].steps > 0) compare(probes(i), reference, runs[i]);
+  }
+}
+
+}  // namespace
+
+void declare(CLI::App& command, Arguments& arguments) {
+  command.add_option("scene", arguments.scene, "the scene, a YAML file with heat and probes")->required();
+  command.add_option("--set", arguments.overrides, "replace a key of the scene")->type_name("KEY=VALUE")->take_all();
+  command.add_option("--out", arguments.directory, "where the results go (default: out/, the scene's name and -accuracy)");
+  command.add_option("--mesh", arguments.ladder.mesh_factors, "factors of every mesh_size (default: 2 1 0.5)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--tolerance", arguments.tolerances, "time tolerances (default: 10, 1 and 0.1 times the scene's)");
+  command.add_option("--integrator", arguments.ladder.integrators, "steps in time (default: implicit)");
+  command.add_option("--contact", arguments.ladder.contact_models, "contact models (default: the scene's)");
+  command.add_flag("--quiet", arguments.quiet, "no progress");
+}
+
+int run(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene, arguments.overrides);
+  check_scene(scene);
+  LadderOptions options = arguments.ladder;
+  for (const std::string& text : arguments.tolerances) options.tolerances.push_back(kelvin_difference(text));
+  const std::vector<Rung> ladder = ladder_of(scene, options);
+  // What a rung changes may not fit the scene: say so before anything is run.
+  for (const Rung& rung : ladder) {
+    std::vector<std::string> overrides = arguments.overrides;
+    for (const std::string& assignment : overrides_of(scene, rung)) overrides.push_back(assignment);
+    read_scene(arguments.scene, overrides);
+  }
+  const fs::path directory = arguments.directory.empty() ? fs::path("out") / (scene.file.stem().string() + "-accuracy")
+                                                         : fs::path(arguments.directory);
+  fs::create_directories(directory);
+
+  Progress progress(progress_mode(arguments.quiet));
+  progress.start("accuracy", fmt::format("{} runs", ladder.size()));
+  Study study(arguments, scene, directory);
+  std::vector<Measured> runs;
+  for (const Rung& rung : ladder) {
+    runs.push_back(study.make(rung, runs.size()));
+    progress.update(static_cast<double>(runs.size()) / static_cast<double>(ladder.size()),
+                    fmt::format("run {} of {}", runs.size(), ladder.size()));
+  }
+  progress.finish("done");
+  const std::size_t finest_run = finest(ladder);
+  if (runs[finest_run].steps == 0) {
+    throw RunError(fmt::format("the finest run has failed; see {}", (study.run_directory(finest_run) / "log").string()));
+  }
+  compare_all(study, finest_run, runs);
+  mark_front(runs);
+  write_text(directory / "accuracy.csv", to_csv(runs));
+  draw(directory / "accuracy.csv", directory / "accuracy.png");
+  fmt::print("{}", to_text(runs, observed_orders(runs), fmt::format("run {}, the finest", finest_run)));
+  const bool all_ran = std::all_of(runs.begin(), runs.end(), [](const Measured& run) { return run.steps > 0; });
+  return all_ran ? 0 : 1;
+}
+
+}  // namespace scree::accuracy

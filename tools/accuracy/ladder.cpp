@@ -1,0 +1,80 @@
+#include "tools/accuracy/ladder.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace scree::accuracy {
+
+namespace {
+
+// Whether a finer mesh leaves the blocks what they are.
+bool mesh_can_vary(const Scene& scene) {
+  return !scene.settle && !scene.packing &&
+         std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                      [](const mesh::BodySpec& body) { return body.blocks == mesh::BlockRule::per_element; });
+}
+
+void refuse_mesh_factors(const Scene& scene) {
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = "--mesh";
+  problem.value = "given";
+  problem.rule =
+      "must not be varied where blocks are single elements, fall, or come from a packing file: it would be another pile";
+  problem.suggestion = "Vary --tolerance, --integrator or --contact";
+  throw InputError(problem);
+}
+
+template <class Value>
+std::vector<Value> or_else(const std::vector<Value>& given, std::vector<Value> otherwise) {
+  return given.empty() ? otherwise : given;
+}
+
+}  // namespace
+
+std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
+  if (!options.mesh_factors.empty() && !mesh_can_vary(scene)) refuse_mesh_factors(scene);
+  const double tolerance = scene.heat->time.tolerance;
+  auto factors = or_else(options.mesh_factors, mesh_can_vary(scene) ? std::vector<double>{2, 1, 0.5} : std::vector<double>{1});
+  auto tolerances = or_else(options.tolerances, {10 * tolerance, tolerance, 0.1 * tolerance});
+  std::sort(factors.rbegin(), factors.rend());
+  std::sort(tolerances.rbegin(), tolerances.rend());
+  std::vector<Rung> ladder;
+  for (const std::string& model : or_else(options.contact_models, {std::string()})) {
+    for (const std::string& integrator : or_else(options.integrators, {std::string("implicit")})) {
+      for (const double factor : factors) {
+        // Explicit steps follow from stability, whatever the tolerance.
+        const bool chooses_steps = integrator == "implicit";
+        const std::vector<double> varied = chooses_steps ? tolerances : std::vector<double>{tolerances.front()};
+        for (const double asked : varied) ladder.push_back({factor, asked, integrator, model});
+      }
+    }
+  }
+  return ladder;
+}
+
+std::size_t finest(const std::vector<Rung>& ladder) {
+  const auto coarseness = [](const Rung& rung) {
+    return std::tuple(rung.mesh_factor, rung.integrator == "implicit" ? 0 : 1, rung.tolerance);
+  };
+  const auto best = std::min_element(ladder.begin(), ladder.end(),
+                                     [&](const Rung& a, const Rung& b) { return coarseness(a) < coarseness(b); });
+  return static_cast<std::size_t>(best - ladder.begin());
+}
+
+std::vector<std::string> overrides_of(const Scene& scene, const Rung& rung) {
+  std::vector<std::string> overrides;
+  if (rung.mesh_factor != 1) {
+    for (const mesh::BodySpec& body : scene.bodies) {
+      overrides.push_back(fmt::format("bodies.{}.mesh_size={:.17g} m", body.name, rung.mesh_factor * body.mesh_size));
+    }
+  }
+  overrides.push_back(fmt::format("heat.tolerance={:.17g} K", rung.tolerance));
+  overrides.push_back("heat.integrator=" + rung.integrator);
+  if (!rung.contact_model.empty()) overrides.push_back("contact.model=" + rung.contact_model);
+  return overrides;
+}
+
+}  // namespace scree::accuracy

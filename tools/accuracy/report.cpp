@@ -1,0 +1,80 @@
+#include "tools/accuracy/report.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
+
+namespace scree::accuracy {
+
+namespace {
+
+std::string error_text(const std::optional<double>& error) {
+  return error ? fmt::format("{:.6g}", *error) : std::string("nan");
+}
+
+// Both panels, with the runs that no other beats joined by a line. %1 is the table, %2 the picture.
+constexpr const char* plot = R"(set terminal pngcairo size 1200,520 font "DejaVu Sans,12" background "white"
+set output "{picture}"
+set datafile separator comma
+set logscale xy
+set format y "10^{{%T}}"
+set border 3 linewidth 1.2 linecolor "#404040"
+set tics nomirror out
+set grid linetype 1 linecolor "#dddddd" linewidth 1
+set ylabel "largest error at the probes [K]"
+set key bottom left
+set multiplot layout 1,2
+set xlabel "wall time of contacts, assembly and heat [s]"
+plot "{csv}" using (strcol(15) eq "1" ? $8 : NaN):12 with points pointtype 7 pointsize 1.4 linecolor "#c23b22" title "no run is faster and better", \
+     "{csv}" using (strcol(15) eq "0" ? $8 : NaN):12 with points pointtype 6 pointsize 1.2 linecolor "#3d4a8f" title "beaten"
+set xlabel "nodes"
+plot "{csv}" using 5:12 with points pointtype 7 pointsize 1.2 linecolor "#3d4a8f" notitle
+unset multiplot
+)";
+
+}  // namespace
+
+std::string to_csv(const std::vector<Measured>& runs) {
+  std::string csv =
+      "mesh_factor,tolerance,integrator,contact_model,nodes,elements,steps,wall_seconds,whole_wall_seconds,peak_memory_bytes,"
+      "time_error,max_error,rms_error,exit_status,on_front\n";
+  for (const Measured& run : runs) {
+    csv += fmt::format("{:g},{:g},{},{},{},{},{},{:.4f},{:.4f},{:.0f},{:.6g},{},{},{},{}\n", run.rung.mesh_factor,
+                       run.rung.tolerance, run.rung.integrator, run.rung.contact_model, run.nodes, run.elements, run.steps,
+                       run.wall_seconds, run.whole_wall_seconds, run.peak_memory_bytes, run.time_error,
+                       error_text(run.max_error), error_text(run.rms_error), run.exit_status, run.on_front ? 1 : 0);
+  }
+  return csv;
+}
+
+std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>& orders, const std::string& reference) {
+  std::string text = fmt::format("errors against {}\n", reference);
+  text += fmt::format("{:>6} {:>10} {:>15} {:>12} {:>9} {:>7} {:>9} {:>11} {:>11}\n", "mesh", "tolerance", "integrator",
+                      "contacts", "nodes", "steps", "wall s", "time err K", "max err K");
+  for (const Measured& run : runs) {
+    text += fmt::format("{:>6g} {:>10g} {:>15} {:>12} {:>9} {:>7} {:>9.3f} {:>11.3g} {:>11} {}\n", run.rung.mesh_factor,
+                        run.rung.tolerance, run.rung.integrator, run.rung.contact_model.empty() ? "-" : run.rung.contact_model,
+                        run.nodes, run.steps, run.wall_seconds, run.time_error,
+                        run.max_error ? fmt::format("{:.3g}", *run.max_error) : "reference",
+                        run.exit_status != 0 ? fmt::format("exit {}", run.exit_status)
+                        : run.on_front       ? "*"
+                                             : "");
+  }
+  text += "* no other run is both faster and more accurate\n";
+  for (const Order& order : orders) text += fmt::format("observed order in {}: {:.2f} ({})\n", order.of, order.order, order.at);
+  return text;
+}
+
+void draw(const std::filesystem::path& csv, const std::filesystem::path& picture) {
+  const std::string script = fmt::format(plot, fmt::arg("csv", csv.string()), fmt::arg("picture", picture.string()));
+  std::FILE* gnuplot = popen("gnuplot", "w");
+  if (gnuplot == nullptr) throw RunError("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
+  std::fputs(script.c_str(), gnuplot);
+  if (pclose(gnuplot) != 0 || !std::filesystem::exists(picture)) {
+    throw RunError(fmt::format("gnuplot could not draw {}. Run tools/setup, or apt-get install gnuplot-nox", picture.string()));
+  }
+}
+
+}  // namespace scree::accuracy

@@ -1,0 +1,20 @@
+// What `scree accuracy` leaves behind: accuracy.csv, accuracy.png and a few lines of text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/accuracy/analysis.h"
+
+namespace scree::accuracy {
+
+std::string to_csv(const std::vector<Measured>& runs);
+
+// `reference` says against what the errors are.
+std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>& orders, const std::string& reference);
+
+// Draws error against time and against unknowns from the table, by gnuplot. Throws RunError if that fails.
+void draw(const std::filesystem::path& csv, const std::filesystem::path& picture);
+
+}  // namespace scree::accuracy
