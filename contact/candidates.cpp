@@ -1,9 +1,8 @@
 #include "contact/candidates.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "contact/face_grid.h"
+#include "contact/face_bounds.h"
 #include "contact/segment.h"
 #include "contact/touch.h"
 
@@ -11,45 +10,12 @@ namespace scree::contact {
 
 namespace {
 
-template <int dim>
-Table<FaceId, FaceBounds<dim>> bounds_of(const Surface<dim>& surface, const ContactOptions& options) {
-  Table<FaceId, FaceBounds<dim>> all;
-  all.reserve(surface.faces.size());
-  for (const FaceId f : surface.faces.ids()) {
-    FaceBounds<dim> bounds;
-    const Corners<dim> corners = corners_of(surface, f);
-    for (const auto& corner : corners) bounds.box.extend(corner);
-    bounds.reach = options.tolerance * surface.lengths[f];
-    bounds.box.min().array() -= bounds.reach;
-    bounds.box.max().array() += bounds.reach;
-    bounds.normal = surface.normals[f];
-    bounds.offset = bounds.normal.dot(corners[0]);
-    bounds.block = surface.faces[f].block;
-    all.push_back(bounds);
-  }
-  return all;
-}
-
-// Heights of a face's corners above the plane of another.
-template <int dim>
-std::array<double, dim> heights_above(const FaceBounds<dim>& plane, const Corners<dim>& corners) {
-  std::array<double, dim> heights;
-  for (int i = 0; i < dim; ++i) heights[i] = plane.normal.dot(corners[i]) - plane.offset;
-  return heights;
-}
-
-template <std::size_t count>
-bool all_beyond(const std::array<double, count>& heights, double reach) {
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-  return *low > reach || *high < -reach;
-}
-
 // What touch_face and touch_edge are asked only after cheap bounds have dismissed nearly all pairs.
 template <int dim>
 class PairSearch {
  public:
   PairSearch(const Surface<dim>& surface, const ContactOptions& options)
-      : surface_(surface), options_(options), bounds_(bounds_of(surface, options)), grid_(bounds_) {
+      : surface_(surface), options_(options), bounds_(face_bounds(surface, options.tolerance)), grid_(bounds_) {
     corners_.reserve(surface.faces.size());
     for (const FaceId face : surface.faces.ids()) corners_.push_back(corners_of(surface, face));
   }

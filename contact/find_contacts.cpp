@@ -1,5 +1,8 @@
 #include "contact/find_contacts.h"
 
+#include <algorithm>
+
+#include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
 #include "contact/semi_spring.h"
 #include "contact/surface.h"
@@ -58,6 +61,40 @@ Contact<3> edge_contact(const Surface<3>& surface, const ContactOptions& options
   return contact;
 }
 
+// Is any pair of bodies modelled so?
+bool uses(const ContactOptions& options, Model model) {
+  if (options.pairs.empty()) return options.model == model;
+  return std::any_of(options.pairs.begin(), options.pairs.end(),
+                     [&](const Table<BodyId, Model>& row) { return std::find(row.begin(), row.end(), model) != row.end(); });
+}
+
+// A semi-spring takes its target among all blocks, and counts only if the two bodies are modelled by semi-springs: what lies on
+// a block of another model does not reach past it.
+template <int dim>
+void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options, ContactSet<dim>& set) {
+  const Targets<dim> targets = find_targets(surface, options);
+  set.semi_springs = targets.of_springs.size();
+  set.semi_edges = targets.of_edges.size();
+  const auto body_of = [&](FaceId face) { return surface.mesh.blocks[surface.faces[face].block].body; };
+  const auto counts = [&](FaceId owner, FaceId target) {
+    return options.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
+  };
+  for (const FaceId face : surface.faces.ids()) {
+    for (int corner = 0; corner < dim; ++corner) {
+      const FaceId target = targets.of_springs[face.index() * dim + corner];
+      if (!target.valid() || !counts(face, target)) continue;
+      set.contacts.push_back(point_contact(surface, options, face, corner, target));
+    }
+    if constexpr (dim == 3) {
+      for (int side = 0; side < 3; ++side) {
+        const EdgeId target = targets.of_edges[face.index() * 3 + side];
+        if (!target.valid() || !counts(face, surface.edges[target].faces[0])) continue;
+        set.contacts.push_back(edge_contact(surface, options, face, side, target));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -65,22 +102,11 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
   SCREE_EXPECT(options.indentation > 0 && options.indentation < 1);
   SCREE_EXPECT(options.tolerance >= 0);
   const Surface<dim> surface = make_surface(mesh);
-  const Targets<dim> targets = find_targets(surface, options);
-
   ContactSet<dim> set;
-  set.semi_springs = targets.of_springs.size();
-  set.semi_edges = targets.of_edges.size();
-  for (const FaceId face : surface.faces.ids()) {
-    for (int corner = 0; corner < dim; ++corner) {
-      const FaceId target = targets.of_springs[face.index() * dim + corner];
-      if (target.valid()) set.contacts.push_back(point_contact(surface, options, face, corner, target));
-    }
-    if constexpr (dim == 3) {
-      for (int side = 0; side < 3; ++side) {
-        const EdgeId target = targets.of_edges[face.index() * 3 + side];
-        if (target.valid()) set.contacts.push_back(edge_contact(surface, options, face, side, target));
-      }
-    }
+  if (uses(options, Model::semi_spring)) add_semi_springs(surface, options, set);
+  if (uses(options, Model::overlap)) {
+    const auto overlaps = overlap_contacts(surface, options);
+    set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
   }
   return set;
 }

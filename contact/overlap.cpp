@@ -1,0 +1,156 @@
+#include "contact/overlap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace scree::contact {
+
+namespace {
+
+constexpr double least_share = 1e-13;  // of the smaller face
+
+// A point of the overlap: its weights on the first face, then on the second.
+template <int dim>
+using Place = Eigen::Matrix<double, 2 * dim, 1>;
+
+template <int dim>
+using Polygon = std::vector<Place<dim>>;  // convex, in order
+
+// Area of a face as seen along the normal, with the sign of its sense of rotation.
+template <int dim>
+double seen_area(const Corners<dim>& corners, const Point<dim>& normal) {
+  if constexpr (dim == 2) {
+    const Point<2> way = corners[1] - corners[0];
+    return normal.y() * way.x() - normal.x() * way.y();
+  } else {
+    return 0.5 * normal.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+  }
+}
+
+// The first face, each corner with its weights on the second, as seen along the normal.
+template <int dim>
+Polygon<dim> whole_first(const FacePair<dim>& pair) {
+  const double area = seen_area<dim>(pair.second, pair.normal);
+  Polygon<dim> polygon(dim, Place<dim>::Zero());
+  for (int i = 0; i < dim; ++i) {
+    polygon[i][i] = 1;
+    for (int j = 0; j < dim; ++j) {
+      Corners<dim> part = pair.second;
+      part[j] = pair.first[i];
+      polygon[i][dim + j] = seen_area<dim>(part, pair.normal) / area;
+    }
+  }
+  return polygon;
+}
+
+// Keeps what lies where the linear function `value` is not negative.
+template <int dim>
+void clip(Polygon<dim>& polygon, const Place<dim>& value) {
+  Polygon<dim> kept;
+  const std::size_t sides = dim == 2 ? polygon.size() - 1 : polygon.size();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Place<dim>& from = polygon[i];
+    const double here = value.dot(from);
+    if (here >= 0) kept.push_back(from);
+    if (i >= sides) continue;
+    const Place<dim>& to = polygon[(i + 1) % polygon.size()];
+    const double there = value.dot(to);
+    if ((here < 0) != (there < 0)) kept.push_back(from + here / (here - there) * (to - from));
+  }
+  polygon = std::move(kept);
+}
+
+// The gap as a function of the weights.
+template <int dim>
+Place<dim> gap_function(const FacePair<dim>& pair) {
+  Place<dim> gap;
+  for (int i = 0; i < dim; ++i) {
+    // From one corner, so that rounding is that of a face and not of its distance from the origin.
+    gap[i] = -pair.normal.dot(pair.first[i] - pair.first[0]);
+    gap[dim + i] = pair.normal.dot(pair.second[i] - pair.first[0]);
+  }
+  return gap;
+}
+
+template <int dim>
+Polygon<dim> overlap(const FacePair<dim>& pair, const Place<dim>& gap, double tolerance) {
+  Polygon<dim> polygon = whole_first(pair);
+  Place<dim> one = Place<dim>::Zero();
+  one.template head<dim>().setOnes();
+  for (int j = 0; j < dim && polygon.size() >= dim; ++j) clip<dim>(polygon, Place<dim>::Unit(dim + j));
+  if (polygon.size() >= dim) clip<dim>(polygon, tolerance * one - gap);
+  if (polygon.size() >= dim) clip<dim>(polygon, tolerance * one + gap);
+  return polygon;
+}
+
+// Share of the first face between `dim` places.
+template <int dim>
+double share(const std::array<Place<dim>, dim>& places) {
+  Eigen::Matrix<double, dim, dim> weights;
+  for (int i = 0; i < dim; ++i) weights.col(i) = places[i].template head<dim>();
+  if constexpr (dim == 2) {
+    return std::abs(weights(0, 0) - weights(0, 1));
+  } else {
+    return std::abs(weights.determinant());
+  }
+}
+
+// The segment, or the triangles of a fan.
+template <int dim>
+std::vector<std::array<Place<dim>, dim>> simplices(const Polygon<dim>& polygon) {
+  std::vector<std::array<Place<dim>, dim>> parts;
+  for (std::size_t i = dim - 1; i < polygon.size(); ++i) {
+    if constexpr (dim == 2) {
+      parts.push_back({polygon[i - 1], polygon[i]});
+    } else {
+      parts.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    }
+  }
+  return parts;
+}
+
+template <int dim>
+OverlapPoint<dim> as_point(const Place<dim>& place, double area, double gap) {
+  OverlapPoint<dim> point;
+  for (int i = 0; i < dim; ++i) {
+    point.on_first[i] = place[i];
+    point.on_second[i] = place[dim + i];
+  }
+  point.area = area;
+  point.gap = gap;
+  return point;
+}
+
+}  // namespace
+
+template <int dim>
+void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<OverlapPoint<dim>>& points) {
+  points.clear();
+  const Place<dim> gap = gap_function(pair);
+  const auto parts = simplices<dim>(overlap(pair, gap, tolerance));
+  const double first_area = std::abs(seen_area<dim>(pair.first, pair.normal));
+  const double second_area = std::abs(seen_area<dim>(pair.second, pair.normal));
+  double area = 0;
+  for (const auto& part : parts) area += share<dim>(part) * first_area;
+  if (area <= least_share * std::min(first_area, second_area)) return;
+
+  // Exact for quadratic functions: Gauss's rule on a segment, the points (2/3, 1/6, 1/6) of a triangle.
+  const double near = dim == 2 ? 0.5 + 0.5 / std::sqrt(3.0) : 2.0 / 3;
+  const double far = (1 - near) / (dim - 1);
+  for (const auto& part : parts) {
+    const double piece = share<dim>(part) * first_area / dim;
+    if (piece == 0) continue;
+    for (int i = 0; i < dim; ++i) {
+      Place<dim> place = Place<dim>::Zero();
+      for (int j = 0; j < dim; ++j) place += (i == j ? near : far) * part[j];
+      points.push_back(as_point<dim>(place, piece, gap.dot(place)));
+    }
+  }
+}
+
+template void overlap_points<2>(const FacePair<2>&, double, std::vector<OverlapPoint<2>>&);
+template void overlap_points<3>(const FacePair<3>&, double, std::vector<OverlapPoint<3>>&);
+
+}  // namespace scree::contact

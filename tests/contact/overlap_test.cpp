@@ -1,0 +1,210 @@
+// Overlaps of faces against closed forms.
+#include "contact/overlap.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/contact/builders.h"
+
+namespace scree::contact {
+namespace {
+
+using namespace testing;
+
+const ContactOptions by_overlap{0.05, 0.01, Model::overlap, {}};
+
+template <int dim>
+double area_of(const ContactSet<dim>& set) {
+  double sum = 0;
+  for (const auto& contact : set.contacts) sum += contact.area;
+  return sum;
+}
+
+// A cube of edge 1 on z = 0 .. 1 under a flat box whose lower face is the unit square turned and moved.
+double area_on_cube(double angle, const Point<3>& shift) {
+  auto upper = box<3>(at(-0.5, -0.5, 0), at(1, 1, 1));
+  const Eigen::AngleAxisd turn(angle, Point<3>::UnitZ());
+  for (auto& simplex : upper) {
+    for (auto& corner : simplex) corner = turn * corner + shift;
+  }
+  return area_of(find_contacts<3>(mesh_of<3>({box<3>(at(-0.5, -0.5, -1), at(1, 1, 1)), upper}), by_overlap));
+}
+
+TEST(Overlap, OfShiftedSquaresIsTheRectangleTheyShare) {
+  for (const double x : {0.0, 0.1, 0.5, 0.99}) {
+    for (const double y : {0.0, -0.3, 0.7}) {
+      EXPECT_NEAR(area_on_cube(0, {x, y, 0}), (1 - x) * (1 - std::abs(y)), 1e-13) << x << " " << y;
+    }
+  }
+  EXPECT_EQ(area_on_cube(0, {1.001, 0, 0}), 0);
+}
+
+// Two unit squares about one centre, turned by a: each corner loses a right-angled triangle, together
+// 1 - 2 s c / (1 + s + c)^2 with s, c the sine and cosine of a.
+TEST(Overlap, OfTurnedSquaresIsTheOctagonTheyShare) {
+  for (const double angle : {0.01, 0.3, M_PI / 4, 1.2}) {
+    const double s = std::sin(angle), c = std::cos(angle);
+    EXPECT_NEAR(area_on_cube(angle, {0, 0, 0}), 1 - 2 * s * c / std::pow(1 + s + c, 2), 1e-13) << angle;
+  }
+}
+
+TEST(Overlap, IntegratesProductsOfLinearFunctionsOverANestedTriangle) {
+  const Corners<3> outer{at(-3, -2, 0), at(4, -1, 0), at(0, 5, 0)};
+  const Corners<3> inner{at(0, 0, 0), at(0, 1, 0), at(1, 0, 0)};
+  std::vector<OverlapPoint<3>> points;
+  for (const bool inner_first : {true, false}) {
+    const auto pair = inner_first ? opposed_faces<3>(inner, {0, 0, -1}, outer, {0, 0, 1})
+                                  : opposed_faces<3>(outer, {0, 0, 1}, inner, {0, 0, -1});
+    overlap_points(pair.value(), 0.01, points);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (const auto& point : points) {
+          const auto& weights = inner_first ? point.on_first : point.on_second;
+          sum += point.area * weights[i] * weights[j];
+        }
+        EXPECT_NEAR(sum, 0.5 * (i == j ? 2 : 1) / 12, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Overlap, IntegratesProductsOfLinearFunctionsOverAPartOfASegment) {
+  // [0, 2] and [1, 5] on one line: there the weights are x/2 and (x - 1)/4.
+  const Corners<2> first{Point<2>(0, 0), Point<2>(2, 0)}, second{Point<2>(5, 0), Point<2>(1, 0)};
+  std::vector<OverlapPoint<2>> points;
+  overlap_points(opposed_faces<2>(first, {0, -1}, second, {0, 1}).value(), 0.01, points);
+  ASSERT_EQ(points.size(), 2);
+  double area = 0, product = 0;
+  for (const auto& point : points) {
+    area += point.area;
+    product += point.area * point.on_first[1] * point.on_second[0];
+  }
+  EXPECT_NEAR(area, 1, 1e-15);
+  // Integral of x/2 (x - 1)/4 from 1 to 2: (7/3 - 3/2)/8.
+  EXPECT_NEAR(product, (7.0 / 3 - 1.5) / 8, 1e-15);
+}
+
+// Two blocks of one interface, meshed 5 and 7 cells across, shifted so that nothing fits.
+template <int dim>
+BlockOf<dim> layer(int cells, double low) {
+  BlockOf<dim> all;
+  const double size = 1.0 / cells;
+  Point<dim> corner = Point<dim>::Zero();
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < (dim == 3 ? cells : 1); ++j) {
+      corner[0] = i * size;
+      if (dim == 3) corner[1] = j * size;
+      corner[dim - 1] = low;
+      const auto cell = box<dim>(corner, Point<dim>::Constant(size));
+      all.insert(all.end(), cell.begin(), cell.end());
+    }
+  }
+  return all;
+}
+
+template <int dim>
+void non_matching() {
+  const auto lower = layer<dim>(5, -0.2);
+  const auto upper = layer<dim>(7, 0);
+  EXPECT_NEAR(area_of(find_contacts<dim>(mesh_of<dim>({lower, upper}), by_overlap)), 1, 1e-12);
+}
+
+TEST(Overlap, OfNonMatchingMeshesSumsUpToTheirInterface) {
+  non_matching<2>();
+  non_matching<3>();
+}
+
+TEST(Overlap, EndsWhereTheGapExceedsTheTolerance) {
+  // A face of 1 m that opens by 0.02 rad about one of its edges: within 0.005 m up to x = 0.25.
+  const double slope = 0.02;
+  const Corners<2> first{Point<2>(1, 0), Point<2>(0, 0)}, second{Point<2>(0, 0), Point<2>(1, slope)};
+  std::vector<OverlapPoint<2>> points;
+  overlap_points(opposed_faces<2>(first, {0, 1}, second, Point<2>(slope, -1).normalized()).value(), 0.005, points);
+  double area = 0;
+  for (const auto& point : points) {
+    area += point.area;
+    EXPECT_GT(point.gap, 0);
+    EXPECT_LT(point.gap, 0.005);
+  }
+  EXPECT_NEAR(area, 0.25, 1e-3);
+}
+
+TEST(Overlap, DoesNotReachThroughAThinPlate) {
+  // A large floor, a plate of 5 mm and a cube of 10 cm on it; 1 % of the floor's elements would be 1 cm and more.
+  const auto mesh = mesh_of<3>({box<3>(at(-1, -1, -1), at(2, 2, 1)), box<3>(at(-0.2, -0.2, 0), at(0.4, 0.4, 0.005)),
+                                box<3>(at(-0.05, -0.05, 0.005), at(0.1, 0.1, 0.1))});
+  for (const auto& contact : find_contacts<3>(mesh, by_overlap).contacts) {
+    EXPECT_EQ(contact.target.value() - contact.owner.value(), 1);
+  }
+}
+
+TEST(Overlap, IsSearchedOnlyForThePairsOfBodiesThatAskForIt) {
+  auto mesh =
+      mesh_of<3>({box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(1, 0, 0), at(1, 1, 1)), box<3>(at(2, 0, 0), at(1, 1, 1))});
+  for (std::size_t i = 1; i < 3; ++i) {
+    mesh.bodies.push_back({"body", MaterialId{0}, false, Eigen::Vector3d::Zero()});
+    mesh.blocks[BlockId{i}].body = BodyId{i};
+  }
+  ContactOptions options;
+  options.pairs = Table<BodyId, Table<BodyId, Model>>(3, Table<BodyId, Model>(3, Model::none));
+  options.pairs[BodyId{0}][BodyId{1}] = options.pairs[BodyId{1}][BodyId{0}] = Model::overlap;
+  const auto only_first = find_contacts<3>(mesh, options);
+  EXPECT_NEAR(area_of(only_first), 1, 1e-13);
+  EXPECT_EQ(only_first.semi_springs, 0);
+  options.pairs[BodyId{1}][BodyId{2}] = options.pairs[BodyId{2}][BodyId{1}] = Model::semi_spring;
+  const auto both = find_contacts<3>(mesh, options);
+  EXPECT_NEAR(area_of(both), 1 + 2, 1e-13) << "semi-springs count from both sides";
+  for (const auto& contact : both.contacts) {
+    const bool second_joint = contact.owner == BlockId{2} || contact.target == BlockId{2};
+    EXPECT_EQ(contact.kind, second_joint ? Kind::point_face : Kind::overlap);
+  }
+}
+
+template <int dim>
+void same_when_renumbered_and_moved() {
+  auto lower = layer<dim>(3, -1.0 / 3), upper = layer<dim>(4, 0);
+  const auto before = find_contacts<dim>(mesh_of<dim>({lower, upper}), by_overlap);
+  Eigen::Matrix<double, dim, dim> rotation;
+  if constexpr (dim == 2) {
+    rotation = Eigen::Rotation2Dd(0.7).toRotationMatrix();
+  } else {
+    rotation = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized().toRotationMatrix();
+  }
+  const auto moved = [&](BlockOf<dim> block) {
+    std::mt19937 random(1);
+    std::shuffle(block.begin(), block.end(), random);
+    for (auto& simplex : block) {
+      std::shuffle(simplex.begin(), simplex.end(), random);
+      for (auto& corner : simplex) corner = rotation * corner + Point<dim>::Constant(-12.3);
+    }
+    return block;
+  };
+  const auto after_mesh = mesh_of<dim>({moved(upper), moved(lower)});
+  const auto after = find_contacts<dim>(after_mesh, by_overlap);
+  EXPECT_NEAR(area_of(before), area_of(after), 1e-12);
+  // The second moments of the points are those of the moved ones, however the polygons are divided.
+  Eigen::Matrix<double, dim, dim> sum = Eigen::Matrix<double, dim, dim>::Zero(), moved_sum = sum;
+  for (const auto& contact : before.contacts) {
+    const Point<dim> point = rotation * contact.point + Point<dim>::Constant(-12.3);
+    sum += contact.area * point * point.transpose();
+  }
+  for (const auto& contact : after.contacts) moved_sum += contact.area * contact.point * contact.point.transpose();
+  EXPECT_NEAR((sum - moved_sum).norm(), 0, 1e-9);
+}
+
+TEST(Overlap, DependsOnNeitherNumberingNorAMotionOfTheWhole) {
+  same_when_renumbered_and_moved<2>();
+  same_when_renumbered_and_moved<3>();
+}
+
+TEST(Overlap, AreasPerPairOfBodiesAreThoseOfTheContacts) {
+  const auto mesh = mesh_of<3>({layer<3>(5, -0.2), layer<3>(7, 0)});
+  const auto areas = overlap_areas<3>(mesh, 0.01);
+  ASSERT_EQ(areas.size(), 1);
+  EXPECT_NEAR(areas.at({BodyId{0}, BodyId{0}}), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace scree::contact
