@@ -22,8 +22,10 @@ struct SettleReport {
   double window = 0;            // that window [s]
   double max_penetration = 0;   // over all pairs, on the true geometry [m]
   double mean_penetration = 0;  // over the pairs that touch [m]
-  double mean_edge = 0;         // of the free blocks' elements [m]
-  double top = 0;  // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
+  // Deepest overlap of two blocks at any time of the fall, over the size (cube root of the volume) of the smaller [-].
+  double deepest_overlap = 0;
+  double mean_edge = 0;  // of the free blocks' elements [m]
+  double top = 0;        // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
   std::vector<BlockId> lost_blocks;  // left the scene; frozen where they left it
 };
 

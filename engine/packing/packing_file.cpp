@@ -18,10 +18,17 @@ constexpr const char* format_name = "scree packing";
 constexpr std::int64_t format_version = 1;
 
 // The numbers of a report, in the order of the file.
-constexpr std::array report_numbers{
-    &SettleReport::simulated_time,   &SettleReport::rms_speed, &SettleReport::max_speed,       &SettleReport::unbalanced_force,
-    &SettleReport::max_displacement, &SettleReport::window,    &SettleReport::max_penetration, &SettleReport::mean_penetration,
-    &SettleReport::mean_edge,        &SettleReport::top};
+constexpr std::array report_numbers{&SettleReport::simulated_time,
+                                    &SettleReport::rms_speed,
+                                    &SettleReport::max_speed,
+                                    &SettleReport::unbalanced_force,
+                                    &SettleReport::max_displacement,
+                                    &SettleReport::window,
+                                    &SettleReport::max_penetration,
+                                    &SettleReport::mean_penetration,
+                                    &SettleReport::deepest_overlap,
+                                    &SettleReport::mean_edge,
+                                    &SettleReport::top};
 
 // A packing as plain lists.
 struct Lists {

@@ -101,6 +101,7 @@ class Settling {
   SceneBounds bounds_;
   std::int64_t half_steps_ = 0;  // time is counted in them, for the last part is made in half steps
   bool halved_ = false;
+  double deepest_overlap_ = 0;
   std::vector<BlockId> lost_;
 };
 
@@ -113,6 +114,7 @@ Motion Settling::advance(double viscous) {
   damping_.slow_down(world_, options_.local_damping, viscous, step);
   world_.step(step, options_.iterations);
   damping_.observe(world_, step);
+  deepest_overlap_ = std::max(deepest_overlap_, world_.deepest_overlap());
   half_steps_ += halved_ ? 1 : 2;
   for (const BlockId block : take_lost(world_, bounds_)) lost_.push_back(block);
   return observe_motion(world_, damping_, step);
@@ -149,6 +151,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   report.unbalanced_force = motion.unbalanced;
   report.max_displacement = watch.displacement();
   report.window = watch.window();
+  report.deepest_overlap = deepest_overlap_;
   std::sort(lost_.begin(), lost_.end());
   report.lost_blocks = lost_;
   return report;

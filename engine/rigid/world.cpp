@@ -25,15 +25,20 @@ namespace scree::rigid {
 
 namespace {
 
-// A typical length of the free blocks, to which the lengths of the contact search are tied: the mean cube root of volume [m].
+// The cube root of a block's volume [m].
+double size_of(const mesh::BlockMesh<3>& mesh, const mesh::Block& block) {
+  double volume = 0;
+  for (const ElementId e : block.elements) volume += mesh::element_volume(mesh, e);
+  return std::cbrt(volume);
+}
+
+// A typical length of the free blocks, to which the lengths of the contact search are tied: their mean size [m].
 double length_scale(const mesh::BlockMesh<3>& mesh) {
   double sum = 0;
   double count = 0;
   for (const mesh::Block& block : mesh.blocks) {
     if (mesh.bodies[block.body].fixed) continue;
-    double volume = 0;
-    for (const ElementId e : block.elements) volume += mesh::element_volume(mesh, e);
-    sum += std::cbrt(volume);
+    sum += size_of(mesh, block);
     ++count;
   }
   return count > 0 ? sum / count : 1.0;
@@ -115,6 +120,7 @@ struct World::Item {
   Pose frame;  // from the body's axes (centre of mass, principal) to the mesh's
   double mass = 0;
   double radius = 0;
+  double size = 0;
 };
 
 World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
@@ -153,7 +159,9 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   info.m_startWorldTransform = transform_of(item.frame);
   info.m_friction = material.friction;
   info.m_restitution = material.restitution;
+  item.size = size_of(mesh, mesh.blocks[block]);
   item.body = std::make_unique<btRigidBody>(info);
+  item.body->setUserIndex(static_cast<int>(block.index()));
   // Rest is a matter of speed and forces; a body is never put to sleep.
   item.body->setActivationState(DISABLE_DEACTIVATION);
   if (owner.fixed) {
@@ -250,6 +258,20 @@ double World::mean_contact_force(double time_step) const {
     ++pairs;
   }
   return pairs > 0 ? sum / pairs : 0.0;
+}
+
+double World::deepest_overlap() const {
+  double deepest = 0;
+  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
+    double distance = 0;
+    for (int j = 0; j < manifold.getNumContacts(); ++j) distance = std::min(distance, manifold.getContactPoint(j).m_distance1);
+    if (distance >= 0) continue;
+    const double size =
+        std::min(items_[manifold.getBody0()->getUserIndex()].size, items_[manifold.getBody1()->getUserIndex()].size);
+    deepest = std::max(deepest, -distance / size);
+  }
+  return deepest;
 }
 
 void World::translate_free(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity) {

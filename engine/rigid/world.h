@@ -39,6 +39,10 @@ class World {
   // Mean over the touching pairs of the magnitude of the contact force of the last step [N].
   [[nodiscard]] double mean_contact_force(double time_step) const;
 
+  // Of all touching pairs in the last step, over the size (cube root of the volume) of the smaller block; 0 if none overlaps
+  // [-].
+  [[nodiscard]] double deepest_overlap() const;
+
   // Moves all free blocks by the same way and gives them the same velocity.
   void translate_free(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity);
   // Takes a block out of the scene and keeps it where it is.

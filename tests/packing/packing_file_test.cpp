@@ -100,7 +100,7 @@ TEST_F(PackingFile, AReportComesBackToTheBit) {
   auto packing = awkward_packing<3>();
   const double tiny = std::numeric_limits<double>::min();
   packing.settled =
-      SettleReport{true, "slow and balanced", 1.0 / 3, 0.1, 0.2, 0.3, 0.4, 0.5, tiny, 0.6, 0.05, 0.46, {BlockId{1}}};
+      SettleReport{true, "slow and balanced", 1.0 / 3, 0.1, 0.2, 0.3, 0.4, 0.5, tiny, 0.6, 0.07, 0.05, 0.46, {BlockId{1}}};
   write(packing, file());
   const auto back = read<3>(file());
   ASSERT_TRUE(back.settled);
@@ -115,6 +115,7 @@ TEST_F(PackingFile, AReportComesBackToTheBit) {
   EXPECT_EQ(a.window, b.window);
   EXPECT_EQ(a.max_penetration, b.max_penetration);
   EXPECT_EQ(a.mean_penetration, b.mean_penetration);
+  EXPECT_EQ(a.deepest_overlap, b.deepest_overlap);
   EXPECT_EQ(a.mean_edge, b.mean_edge);
   EXPECT_EQ(a.top, b.top);
   EXPECT_EQ(a.lost_blocks, b.lost_blocks);

@@ -157,7 +157,10 @@ std::string values_of(const Scene& scene) {
         fmt::format("\nbody {} {} {} {} {} {} {} {}", b.name, std::visit(as_text, b.shape), std::visit(as_text, b.arrangement),
                     b.mesh_size, static_cast<int>(b.blocks), b.material.value(), b.fixed, text_of(b.velocity));
   }
-  if (scene.settle) text += fmt::format("\nsettle {} {}", text_of(scene.settle->options), scene.settle->accept_moving);
+  if (scene.settle) {
+    text += fmt::format("\nsettle {} {} {}", text_of(scene.settle->options), scene.settle->largest_overlap,
+                        scene.settle->accept_moving);
+  }
   if (scene.packing) text += "\npacking " + scene.packing->string();
   if (scene.contact) text += fmt::format("\ncontact {} {}", scene.contact->indentation, scene.contact->tolerance);
   if (scene.heat) text += "\nheat " + text_of(*scene.heat);

@@ -14,6 +14,9 @@ namespace {
 // Largest ledger residual of a sound run, relative to the heat that flowed.
 constexpr double largest_ledger_residual = 1e-8;
 
+// Deeper than this part of the smaller block's size in another, contacts may have turned it the wrong way out.
+constexpr double swallowed = 0.5;
+
 template <int dim>
 Json settle_json(const packing::Packing<dim>& packing, bool reused) {
   const packing::SettleReport& report = *packing.settled;
@@ -32,6 +35,7 @@ Json settle_json(const packing::Packing<dim>& packing, bool reused) {
           {"window", report.window},
           {"max_penetration", report.max_penetration},
           {"mean_penetration", report.mean_penetration},
+          {"deepest_overlap", report.deepest_overlap},
           {"mean_edge", report.mean_edge},
           {"lost_blocks", report.lost_blocks.size()},
           {"lost", std::move(lost)},
@@ -143,11 +147,27 @@ void add_stages(Json& summary, const std::vector<StageCost>& costs) {
 
 std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report) {
   // Whoever names a packing file accepts it as it is; its figures stand in the summary.
-  if (report.at_rest || !scene.settle || scene.settle->accept_moving) return {};
-  return {
+  if (!scene.settle) return {};
+  std::vector<std::string> reasons;
+  const double overlap = report.max_penetration / report.mean_edge;
+  if (overlap > scene.settle->largest_overlap) {
+    reasons.push_back(
+        fmt::format("two blocks overlap by {:.3g} of the mean edge at the end, above settle.largest_overlap of {:g}. Raise "
+                    "settle.iterations or lower settle.step",
+                    overlap, scene.settle->largest_overlap));
+  }
+  if (report.deepest_overlap > swallowed) {
+    reasons.push_back(
+        fmt::format("a block was pressed into another by {:.3g} of its size during the fall: one may have passed through the "
+                    "other. Lower settle.step, raise settle.iterations, or make masses less unlike",
+                    report.deepest_overlap));
+  }
+  if (report.at_rest || scene.settle->accept_moving) return reasons;
+  reasons.push_back(
       fmt::format("the pile was still moving at {:.3g} s (rms speed {:.2e} m/s, unbalanced force {:.2e}; at rest is: {}). "
                   "Raise settle.limit, or accept it with settle.accept_moving",
-                  report.simulated_time, report.rms_speed, report.unbalanced_force, report.criterion)};
+                  report.simulated_time, report.rms_speed, report.unbalanced_force, report.criterion));
+  return reasons;
 }
 
 std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& state) {

@@ -210,6 +210,9 @@ Keys settle_keys() {
           .fallback(fmt::format("{}", by_default.iterations)),
       row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd.", q::time, positive)
           .fallback(with_unit(by_default.frame_interval, "s")),
+      row("settle.largest_overlap", quantity,
+          "Largest overlap of two blocks at the end, over the mean edge, that is no failure.", q::number, positive)
+          .fallback("0.02"),
       row("settle.accept_moving", flag, "A pile that still moves at the limit is no failure.").fallback("false"),
   };
 }

@@ -17,7 +17,8 @@ namespace scree {
 
 struct SettleStage {
   rigid::SettleOptions options;
-  bool accept_moving = false;  // a pile still moving at the limit is accepted: exit 0, and the summary says so
+  double largest_overlap = 0.02;  // of two blocks at rest, over the mean edge, that a sound run may have [-]
+  bool accept_moving = false;     // a pile still moving at the limit is accepted: exit 0, and the summary says so
 };
 
 struct Scene {
