@@ -111,7 +111,7 @@ class Applier {
       bool in = true;
       for (const NodeId node : faces_[f].nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
       if (!in) continue;
-      heated.emplace_back(f, face_area(faces_[f]));
+      heated.emplace_back(f, mesh::face_area(mesh_, faces_[f]));
       area += heated.back().second;
     }
     if (heated.empty()) {
@@ -124,16 +124,6 @@ class Applier {
       for (const NodeId node : faces_[f].nodes) model_.load[node.value()] += per_area * face_size / dim;
     }
     model_.applied_flows.emplace_back(boundary.name, per_area * area);
-  }
-
-  double face_area(const mesh::Face<dim>& face) const {
-    const Point<dim> u = mesh_.nodes[face.nodes[1]] - mesh_.nodes[face.nodes[0]];
-    if constexpr (dim == 2) {
-      return u.norm();
-    } else {
-      const Point<dim> v = mesh_.nodes[face.nodes[2]] - mesh_.nodes[face.nodes[0]];
-      return 0.5 * u.cross(v).norm();
-    }
   }
 
   void nothing_there(const SourceLocation& where, const std::string& list, const std::string& name, const Region& region,

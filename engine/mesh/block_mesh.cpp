@@ -73,6 +73,16 @@ double element_volume(const BlockMesh<dim>& mesh, ElementId element) {
 }
 
 template <int dim>
+double face_area(const BlockMesh<dim>& mesh, const Face<dim>& face) {
+  const Point<dim> u = mesh.nodes[face.nodes[1]] - mesh.nodes[face.nodes[0]];
+  if constexpr (dim == 2) {
+    return u.norm();
+  } else {
+    return 0.5 * u.cross(mesh.nodes[face.nodes[2]] - mesh.nodes[face.nodes[0]]).norm();
+  }
+}
+
+template <int dim>
 double element_mean_edge(const BlockMesh<dim>& mesh, ElementId element) {
   const auto& corner = mesh.elements[element];
   double sum = 0;
@@ -108,6 +118,7 @@ Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh) {
 #define SCREE_INSTANTIATE(dim)                                                  \
   template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&); \
   template double element_volume<dim>(const BlockMesh<dim>&, ElementId);        \
+  template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);      \
   template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);     \
   template double mean_edge<dim>(const BlockMesh<dim>&);                        \
   template Table<ElementId, BlockId> element_blocks<dim>(const BlockMesh<dim>&);

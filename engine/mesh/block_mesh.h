@@ -55,6 +55,10 @@ Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh);
 template <int dim>
 double element_volume(const BlockMesh<dim>& mesh, ElementId element);
 
+// Length (2-D, times unit thickness) or area (3-D) of a face [m2].
+template <int dim>
+double face_area(const BlockMesh<dim>& mesh, const Face<dim>& face);
+
 // Mean length of an element's edges: the characteristic length of eq. (11) [m].
 template <int dim>
 double element_mean_edge(const BlockMesh<dim>& mesh, ElementId element);

@@ -1,0 +1,111 @@
+// The effective conductivity of jointed rock against k/(1 + k/(hL)), and its bounds in order.
+#include "thermal/effective_conductivity.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/thermal/builders.h"
+
+namespace scree::thermal {
+namespace {
+
+constexpr double k = 4;       // of the test rock [W/m/K]
+constexpr double edge = 0.1;  // of a block [m]
+constexpr double beta = 0.2;
+
+template <int dim>
+struct JointedRock {
+  mesh::BlockMesh<dim> mesh;
+  contact::ContactSet<dim> contacts;
+  HeatModel model;
+  double joint = 0;  // conductance of each joint [W/m2/K]
+};
+
+// Cubes (squares) of two cells an edge, `count` along each axis, with matching meshes.
+template <int dim>
+JointedRock<dim> jointed_rock(int count, double stiffness) {
+  std::vector<test::Slab<dim>> cubes;
+  const int blocks = dim == 2 ? count * count : count * count * count;
+  for (int i = 0; i < blocks; ++i) {
+    test::Slab<dim> cube;
+    cube.size.setConstant(edge);
+    cube.cells.fill(2);
+    for (int axis = 0, rest = i; axis < dim; ++axis, rest /= count) cube.low[axis] = edge * (rest % count);
+    cubes.push_back(cube);
+  }
+  JointedRock<dim> rock;
+  rock.mesh = test::slab_mesh<dim>(cubes);
+  rock.contacts = test::matching_contacts(rock.mesh);
+  HeatOptions options = test::options_for(rock.mesh, 300);
+  options.joint.stiffness_factor = stiffness;
+  rock.model = make_heat_model(rock.mesh, test::rock_only(), rock.contacts, options);
+  double conductance = 0;
+  for (const double g : contact_conductances(rock.mesh, test::rock_only(), rock.contacts, options.joint)) conductance += g;
+  double area = dim * (count - 1) * std::pow(count * edge, dim - 1);
+  rock.joint = conductance / area;
+  return rock;
+}
+
+template <int dim>
+Aabb<dim> window(double low, double high) {
+  return {Point<dim>::Constant(low), Point<dim>::Constant(high)};
+}
+
+template <class Dim>
+class Homogenised : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Homogenised, Dimensions);
+
+TYPED_TEST(Homogenised, JointedCubesConductAsTheClosedFormSaysAlongEveryAxis) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(4, beta);
+  // From the middle of the first cubes to that of the last: as many joints as edges.
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(edge / 2, 3.5 * edge));
+  const double expected = k / (1 + k / (rock.joint * edge));
+  EXPECT_LT(expected, 0.9 * k);
+  for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis] / expected, 1, 1e-9) << axis;
+  EXPECT_NEAR(found.solid_fraction, 1, 1e-12);
+  EXPECT_FALSE(found.lower) << "the sides run through blocks";
+}
+
+TYPED_TEST(Homogenised, BoundsHoldTheMeasurementBetweenThem) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(3, beta);
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(0, 3 * edge));
+  ASSERT_TRUE(found.lower);
+  // Three cubes and two joints in a row.
+  const double series = 3 * edge / (3 * edge / k + 2 / rock.joint);
+  for (int axis = 0; axis < dim; ++axis) {
+    EXPECT_NEAR((*found.lower)(axis, axis) / series, 1, 1e-9);
+    EXPECT_NEAR(found.along[axis] / series, 1, 1e-9);
+    EXPECT_GT(found.upper(axis, axis), found.along[axis]);
+    EXPECT_LT(found.upper(axis, axis), found.volume_mean);
+  }
+  EXPECT_NEAR(found.volume_mean, k, 1e-12);
+  EXPECT_LT((found.upper - found.upper.transpose()).norm(), 1e-9);
+}
+
+TYPED_TEST(Homogenised, SolidRockIsItself) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(1, beta);
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(0, edge));
+  const auto tensor = EffectiveConductivity<dim>::Tensor::Identity() * k;
+  EXPECT_LT((found.upper - tensor).norm(), 1e-9);
+  ASSERT_TRUE(found.lower);
+  EXPECT_LT((*found.lower - tensor).norm(), 1e-9);
+}
+
+TYPED_TEST(Homogenised, BlocksThatTouchNothingConductNothing) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(3, 0);
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(0, 3 * edge));
+  for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis], 0, 1e-9);
+}
+
+TYPED_TEST(Homogenised, AWindowWithoutAnElementIsRefused) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(1, beta);
+  EXPECT_THROW(effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(5, 6)), InputError);
+}
+
+}  // namespace
+}  // namespace scree::thermal

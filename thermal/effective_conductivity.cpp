@@ -1,0 +1,210 @@
+#include "thermal/effective_conductivity.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/mesh/disjoint_sets.h"
+#include "thermal/free_nodes.h"
+#include "thermal/problems.h"
+#include "thermal/shifted_solver.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Steady temperatures of the blocks in and around a window, under temperatures and flows of its own.
+template <int dim>
+class Sample {
+ public:
+  Sample(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatModel& model,
+         const Aabb<dim>& window)
+      : mesh_(mesh), materials_(materials), model_(model), window_(window), rounding_(1e-9 * window.diagonal().norm()) {
+    model_.fixed_boundary.clear();
+    model_.boundary_names.clear();
+    model_.applied_flows.clear();
+    for (const ElementId e : mesh.elements.ids()) {
+      Point<dim> centre = Point<dim>::Zero();
+      for (const NodeId node : mesh.elements[e]) centre += mesh.nodes[node] / (dim + 1);
+      if (window.contains(centre)) inside_.push_back(e);
+    }
+    if (!inside_.empty()) return;
+    throw InputError(problem("heat.effective_conductivity", "a window", "must hold the centre of at least one element"));
+  }
+
+  [[nodiscard]] EffectiveConductivity<dim> measure() {
+    EffectiveConductivity<dim> result;
+    for (const ElementId e : inside_) result.solid_fraction += mesh::element_volume(mesh_, e) / window_.volume();
+    result.volume_mean = volume_mean();
+    result.upper = linear_temperature();
+    for (int axis = 0; axis < dim; ++axis) result.along[axis] = between_plates(axis);
+    result.lower = uniform_flux();
+    return result;
+  }
+
+ private:
+  using Tensor = typename EffectiveConductivity<dim>::Tensor;
+
+  [[nodiscard]] double volume_mean() const {
+    const Table<ElementId, BlockId> blocks = mesh::element_blocks(mesh_);
+    double sum = 0;
+    for (const ElementId e : inside_) {
+      const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[e]].body].material];
+      sum += *material.conductivity * mesh::element_volume(mesh_, e);
+    }
+    return sum / window_.volume();
+  }
+
+  [[nodiscard]] double above_low(NodeId node, int axis) const { return mesh_.nodes[node][axis] - window_.min()[axis]; }
+  [[nodiscard]] double below_high(NodeId node, int axis) const { return window_.max()[axis] - mesh_.nodes[node][axis]; }
+  [[nodiscard]] bool beyond(NodeId node, int axis) const {
+    return above_low(node, axis) <= rounding_ || below_high(node, axis) <= rounding_;
+  }
+
+  // Holds the nodes that `held` chooses, and one node of every group of blocks that would hold none.
+  template <class Held>
+  void hold(const Held& held) {
+    mesh::DisjointSets groups(mesh_.nodes.size());
+    for (int column = 0; column < model_.conductance.outerSize(); ++column) {
+      for (SparseMatrix::InnerIterator entry(model_.conductance, column); entry; ++entry) {
+        if (entry.value() != 0) groups.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
+      }
+    }
+    std::vector<char> grounded(mesh_.nodes.size(), 0);
+    std::vector<char> fixed(mesh_.nodes.size(), 0);
+    for (const NodeId node : mesh_.nodes.ids()) {
+      fixed[node.index()] = held(node) ? 1 : 0;
+      if (held(node)) grounded[groups.root(node.index())] = 1;
+    }
+    model_.fixed_nodes.clear();
+    for (const NodeId node : mesh_.nodes.ids()) {
+      char& has_ground = grounded[groups.root(node.index())];
+      if (fixed[node.index()] == 0 && has_ground != 0) continue;
+      has_ground = 1;
+      model_.fixed_nodes.push_back(node);
+    }
+    free_.emplace(model_);
+    solver_.emplace(Eigen::VectorXd::Zero(free_->size()), free_->lower_block(model_.conductance));
+    solver_->prepare(1);
+  }
+
+  // Steady temperatures [K] for the values of the held nodes and the loads of all [W].
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& held_values, const Eigen::VectorXd& load) const {
+    Eigen::VectorXd temperature = Eigen::VectorXd::Zero(load.size());
+    for (const NodeId node : model_.fixed_nodes) temperature[node.value()] = held_values[node.value()];
+    const Eigen::VectorXd missing = load - model_.conductance * temperature;
+    return temperature + free_->scatter(solver_->solve(free_->gather(missing)));
+  }
+
+  // Mean over the window of the flux, voids at 0 [W/m2].
+  [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
+    const auto fluxes = element_fluxes(mesh_, materials_, temperature);
+    Point<dim> sum = Point<dim>::Zero();
+    for (const ElementId e : inside_) sum += mesh::element_volume(mesh_, e) * fluxes[e.index()];
+    return sum / window_.volume();
+  }
+
+  [[nodiscard]] Eigen::VectorXd coordinates(int axis) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(mesh_.nodes.size()));
+    for (const NodeId node : mesh_.nodes.ids()) values[node.value()] = above_low(node, axis);
+    return values;
+  }
+
+  [[nodiscard]] Tensor linear_temperature() {
+    hold([&](NodeId node) {
+      for (int axis = 0; axis < dim; ++axis) {
+        if (beyond(node, axis)) return true;
+      }
+      return false;
+    });
+    const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(model_.load.size());
+    Tensor tensor;
+    for (int axis = 0; axis < dim; ++axis) tensor.col(axis) = -mean_flux(solve(coordinates(axis), no_load));
+    return tensor;
+  }
+
+  [[nodiscard]] double between_plates(int axis) {
+    hold([&](NodeId node) { return beyond(node, axis); });
+    const double length = window_.sizes()[axis];
+    Eigen::VectorXd plates = coordinates(axis).cwiseMax(0).cwiseMin(length);
+    return -mean_flux(solve(plates, Eigen::VectorXd::Zero(model_.load.size())))[axis];
+  }
+
+  struct Side {
+    FaceId face;
+    int axis;
+    double sign;  // of the outward normal
+    double area;  // [m2]
+  };
+
+  // The faces that lie on the window's sides; nothing if they leave a part of a side open.
+  [[nodiscard]] std::optional<std::vector<Side>> sides(const Table<FaceId, mesh::Face<dim>>& faces) const {
+    std::vector<Side> found;
+    Eigen::Matrix<double, dim, 2> covered = Eigen::Matrix<double, dim, 2>::Zero();
+    for (const FaceId f : faces.ids()) {
+      for (int axis = 0; axis < dim; ++axis) {
+        for (int high = 0; high < 2; ++high) {
+          bool on = true;
+          for (const NodeId node : faces[f].nodes) {
+            on = on && std::abs(high == 1 ? below_high(node, axis) : above_low(node, axis)) <= rounding_;
+          }
+          if (!on) continue;
+          found.push_back({f, axis, high == 1 ? 1.0 : -1.0, mesh::face_area(mesh_, faces[f])});
+          covered(axis, high) += found.back().area;
+        }
+      }
+    }
+    for (int axis = 0; axis < dim; ++axis) {
+      const double whole = window_.volume() / window_.sizes()[axis];
+      if ((covered.row(axis).array() - whole).abs().maxCoeff() > 1e-6 * whole) return std::nullopt;
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::optional<Tensor> uniform_flux() {
+    const auto faces = mesh::boundary_faces(mesh_);
+    const auto found = sides(faces);
+    if (!found) return std::nullopt;
+    hold([](NodeId) { return false; });
+    Tensor resistivity = Tensor::Zero();  // [m K/W]
+    for (int axis = 0; axis < dim; ++axis) {
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.load.size());
+      for (const Side& side : *found) {
+        if (side.axis != axis) continue;
+        for (const NodeId node : faces[side.face].nodes) load[node.value()] -= side.sign * side.area / dim;
+      }
+      const Eigen::VectorXd temperature = solve(Eigen::VectorXd::Zero(load.size()), load);
+      for (const Side& side : *found) {
+        double mean = 0;
+        for (const NodeId node : faces[side.face].nodes) mean += temperature[node.value()] / dim;
+        resistivity(side.axis, axis) -= side.sign * side.area * mean / window_.volume();
+      }
+    }
+    return resistivity.inverse();
+  }
+
+  const mesh::BlockMesh<dim>& mesh_;
+  const Table<MaterialId, Material>& materials_;
+  HeatModel model_;
+  Aabb<dim> window_;
+  double rounding_;  // [m]
+  std::vector<ElementId> inside_;
+  std::optional<FreeNodes> free_;
+  std::optional<ShiftedSolver> solver_;
+};
+
+}  // namespace
+
+template <int dim>
+EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& mesh,
+                                                  const Table<MaterialId, Material>& materials, const HeatModel& model,
+                                                  const Aabb<dim>& window) {
+  return Sample<dim>(mesh, materials, model, window).measure();
+}
+
+template EffectiveConductivity<2> effective_conductivity<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
+                                                            const HeatModel&, const Aabb<2>&);
+template EffectiveConductivity<3> effective_conductivity<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
+                                                            const HeatModel&, const Aabb<3>&);
+
+}  // namespace scree::thermal

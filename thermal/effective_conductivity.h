@@ -1,0 +1,33 @@
+// The effective conductivity tensor of the blocks and joints in a window of space, with its bounds.
+//
+// Hill 1963; Hazanov & Huet 1994: for a sample of finite size, a linear temperature on its boundary gives a tensor that is
+// never below the effective one, a uniform flux through its boundary one that is never above it. Between them lies what a
+// measurement between two plates gives: two sides held, the others insulated.
+#pragma once
+
+#include <optional>
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+template <int dim>
+struct EffectiveConductivity {
+  using Tensor = Eigen::Matrix<double, dim, dim>;
+  Tensor upper = Tensor::Zero();  // temperature linear on and outside the window's boundary [W/m/K]
+  // Uniform flux through the window's sides [W/m/K]; nothing unless faces of blocks cover all of them.
+  std::optional<Tensor> lower;
+  Point<dim> along = Point<dim>::Zero();  // per axis, between two plates [W/m/K]
+  double solid_fraction = 0;              // of the window's volume [-]
+  double volume_mean = 0;                 // of the conductivity, voids at 0: no arrangement conducts better [W/m/K]
+};
+
+// Nodes on and outside the window's sides are held; elements count whose centre is in it, so sides should follow faces of
+// elements or be far apart. `model` is that of `mesh`, whatever it holds fixed. Throws InputError for a window that holds no
+// element.
+template <int dim>
+EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& mesh,
+                                                  const Table<MaterialId, Material>& materials, const HeatModel& model,
+                                                  const Aabb<dim>& window);
+
+}  // namespace scree::thermal
