@@ -164,6 +164,9 @@ std::string values_of(const Scene& scene) {
   if (scene.packing) text += "\npacking " + scene.packing->string();
   if (scene.contact) text += fmt::format("\ncontact {} {}", scene.contact->indentation, scene.contact->tolerance);
   if (scene.heat) text += "\nheat " + text_of(*scene.heat);
+  if (const auto& box = scene.effective_window) {
+    text += fmt::format("\neffective {} {}", text_of(Eigen::Vector3d(box->min())), text_of(Eigen::Vector3d(box->max())));
+  }
   for (const auto& p : scene.probes) text += fmt::format("\nprobe {} {} {}", p.name, text_of(p.point), p.reach);
   return text;
 }

@@ -60,6 +60,13 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()), [&] {
     return thermal::make_heat_model(outcome.pile.mesh, scene.materials, outcome.pile.contacts, *scene.heat);
   });
+  if (scene.effective_window) {
+    const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
+                           scene.effective_window->max().template head<dim>());
+    outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
+      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, outcome.model, window);
+    });
+  }
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
     auto state = interrupted_state(context, outcome.pile.key);
     const auto from = state ? std::optional<double>(state->time) : std::nullopt;

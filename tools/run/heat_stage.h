@@ -1,6 +1,10 @@
 // From a frozen packing to temperatures in time: contacts, the heat balance, the time loop and its files.
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "thermal/effective_conductivity.h"
 #include "thermal/heat_run.h"
 #include "tools/run/heat_recorder.h"
 #include "tools/run/run_context.h"
@@ -13,6 +17,7 @@ struct HeatOutcome {
   thermal::HeatModel model;
   thermal::HeatState state;  // at the end
   std::string solver;
+  std::optional<thermal::EffectiveConductivity<dim>> effective;  // if the scene asks for it
 };
 
 template <int dim>

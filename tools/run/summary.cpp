@@ -92,6 +92,26 @@ Json probes_json(const HeatOutcome<dim>& outcome) {
   return probes;
 }
 
+template <int dim>
+Json tensor_json(const Eigen::Matrix<double, dim, dim>& tensor) {
+  Json rows = Json::array();
+  for (int i = 0; i < dim; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < dim; ++j) row.push_back(tensor(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+template <int dim>
+Json effective_json(const thermal::EffectiveConductivity<dim>& effective) {
+  return {{"along", std::vector<double>(effective.along.begin(), effective.along.end())},
+          {"upper", tensor_json<dim>(effective.upper)},
+          {"lower", effective.lower ? tensor_json<dim>(*effective.lower) : Json()},
+          {"volume_mean", effective.volume_mean},
+          {"solid_fraction", effective.solid_fraction}};
+}
+
 }  // namespace
 
 Json opening_summary(const Scene& scene, const std::string& status) {
@@ -120,6 +140,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                          {"semi_springs", contacts.semi_springs},
                          {"semi_edges", contacts.semi_edges}};
   summary["joints"] = joints_json(outcome, scene);
+  if (outcome.effective) summary["effective_conductivity"] = effective_json<dim>(*outcome.effective);
   const thermal::HeatState& state = outcome.state;
   summary["heat"] = {{"time", state.time},
                      {"ledger_residual", state.ledger.relative_residual()},

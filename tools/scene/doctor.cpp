@@ -40,6 +40,10 @@ std::vector<Model> heat_models(const Scene& scene) {
   const std::size_t boundaries = heat.boundaries.size();
   models.push_back({"boundaries", boundaries > 0,
                     boundaries > 0 ? fmt::format("heat.boundaries has {}", boundaries) : "all surfaces are insulated"});
+  if (scene.effective_window) {
+    models.push_back(
+        {"effective conductivity", true, "the scene has heat.effective_conductivity: steady states of its box of space"});
+  }
   const std::size_t sources = heat.sources.size();
   models.push_back(
       {"sources", sources > 0, sources > 0 ? fmt::format("heat.sources has {}", sources) : "heat.sources is empty"});

@@ -280,6 +280,17 @@ Keys heat_keys() {
   };
   append(keys, boundary_keys());
   append(keys, {
+                   row("heat.effective_conductivity", section,
+                       "Find the effective conductivity tensor of a box of space and its bounds, before anything is heated.")
+                       .otherwise("not asked for"),
+                   row("heat.effective_conductivity.low", quantity, "Corner of the box with the least coordinates.", q::length)
+                       .count(vector)
+                       .required(),
+                   row("heat.effective_conductivity.high", quantity, "Its corner with the largest coordinates.", q::length)
+                       .count(vector)
+                       .required(),
+               });
+  append(keys, {
                    row("heat.until", quantity, "End of the simulated time.", q::time, positive).required(),
                    row("heat.tolerance", quantity, "Largest accepted error of a temperature from the steps in time.",
                        q::temperature_difference, positive)

@@ -112,6 +112,13 @@ contact::ContactOptions read_contact(const Checked& contact) {
   return options;
 }
 
+std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems) {
+  const Checked* window = heat.find("effective_conductivity");
+  if (window == nullptr) return std::nullopt;
+  check_corners(*window, Flat::refused, dimension, problems);
+  return Aabb<3>(window->at("low").vector(), window->at("high").vector());
+}
+
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
   const Checked& heat = scene.at("heat");
   const Checked& contact = scene.at("contact");

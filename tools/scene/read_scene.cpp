@@ -73,7 +73,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.packing = packing->text;
   }
   if (const Checked* contact = checked.find("contact")) scene.contact = read_contact(*contact);
-  if (checked.find("heat") != nullptr) scene.heat = read_heat(checked, problems);
+  if (const Checked* heat = checked.find("heat")) {
+    scene.heat = read_heat(checked, problems);
+    scene.effective_window = read_effective_window(*heat, scene.dimension, problems);
+  }
   scene.probes = read_probes(checked.at("output"));
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));

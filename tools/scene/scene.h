@@ -33,6 +33,7 @@ struct Scene {
   // Both or neither.
   std::optional<contact::ContactOptions> contact;
   std::optional<thermal::HeatOptions> heat;
+  std::optional<Aabb<3>> effective_window;  // of which to find the effective conductivity [m]; 2-D ignores z
   std::vector<output::ProbeSpec> probes;
   std::string effective;  // the scene as YAML with every default filled in; reading it gives the same scene
 };

@@ -18,6 +18,7 @@ std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Pro
 SettleStage read_settle(const Checked& settle, Problems& problems);
 contact::ContactOptions read_contact(const Checked& contact);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
+std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section);
 
 // What one section needs of another: a density to settle, a conductivity for heat, a temperature for every body.
