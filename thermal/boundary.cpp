@@ -3,7 +3,9 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "engine/mesh/surfaces.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -30,7 +32,9 @@ class Applier {
   }
 
   void apply(const Boundary& boundary) {
-    if (const auto* fixed = std::get_if<FixedTemperature>(&boundary.condition)) {
+    if (boundary.region.surface && !mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface)) {
+      no_such_surface(boundary);
+    } else if (const auto* fixed = std::get_if<FixedTemperature>(&boundary.condition)) {
       fix(boundary, fixed->temperature);
     } else if (const auto* flux = std::get_if<HeatFlux>(&boundary.condition)) {
       heat_faces(boundary, flux->flux, 0);
@@ -80,35 +84,57 @@ class Applier {
     return (point.array() >= low).all() && (point.array() <= high).all();
   }
 
+  void no_such_surface(const Boundary& boundary) {
+    const Region& region = boundary.region;
+    const std::vector<std::string> names = mesh::surface_names(mesh_, region.body);
+    const std::string& body = mesh_.bodies[region.body].name;
+    const std::string hint = names.empty() ? fmt::format("Body {} has no named surfaces; use `within`", body)
+                                           : fmt::format("Body {} has {}", body, fmt::join(names, ", "));
+    problems_.push_back(
+        problem("heat.boundaries: " + boundary.name + ": surface", *region.surface, "must be a surface of body " + body, hint));
+    problems_.back().where = boundary.where;
+  }
+
+  std::vector<NodeId> nodes_in(const Region& region) const {
+    std::vector<NodeId> nodes;
+    if (region.surface) {
+      nodes = mesh::surface_nodes(mesh_, *mesh::find_surface(mesh_, region.body, *region.surface));
+    } else {
+      for (const BlockId b : blocks_of_[region.body]) {
+        for (const NodeId node : mesh_.blocks[b].nodes) nodes.push_back(node);
+      }
+    }
+    std::erase_if(nodes, [&](NodeId node) { return !inside(region, mesh_.nodes[node]); });
+    return nodes;
+  }
+
   void fix(const Boundary& boundary, double temperature) {
     const int index = static_cast<int>(model_.boundary_names.size());
     model_.boundary_names.push_back(boundary.name);
-    bool found = false;
+    const std::vector<NodeId> nodes = nodes_in(boundary.region);
     bool conflict = false;
-    for (const BlockId b : blocks_of_[boundary.region.body]) {
-      for (const NodeId node : mesh_.blocks[b].nodes) {
-        if (!inside(boundary.region, mesh_.nodes[node])) continue;
-        found = true;
-        const Hold& held = held_.try_emplace(node, Hold{temperature, index}).first->second;
-        if (held.temperature == temperature || conflict) continue;
-        conflict = true;
-        const std::string rule = fmt::format("\"{}\" holds the node at {} m at {:g} K", model_.boundary_names[held.boundary],
-                                             text<dim>(mesh_.nodes[node]), held.temperature);
-        problems_.push_back(problem("heat.boundaries: " + boundary.name, fmt::format("{:g} K", temperature), rule,
-                                    "Make one of the two regions smaller, so that no node is in both"));
-        problems_.back().where = boundary.where;
-      }
+    for (const NodeId node : nodes) {
+      const Hold& held = held_.try_emplace(node, Hold{temperature, index}).first->second;
+      if (held.temperature == temperature || conflict) continue;
+      conflict = true;
+      const std::string rule = fmt::format("\"{}\" holds the node at {} m at {:g} K", model_.boundary_names[held.boundary],
+                                           text<dim>(mesh_.nodes[node]), held.temperature);
+      problems_.push_back(problem("heat.boundaries: " + boundary.name, fmt::format("{:g} K", temperature), rule,
+                                  "Make one of the two regions smaller, so that no node is in both"));
+      problems_.back().where = boundary.where;
     }
-    if (!found) nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region, "at least one node");
+    if (nodes.empty()) nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region, "at least one node");
   }
 
   // Adds flux times area to the faces in the region, and spreads `flow` over them by area.
   void heat_faces(const Boundary& boundary, double flux, double flow) {
     std::vector<std::pair<FaceId, double>> heated;
     double area = 0;
+    std::optional<SurfaceId> surface;
+    if (boundary.region.surface) surface = mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface);
     for (const FaceId f : faces_.ids()) {
       if (mesh_.blocks[faces_[f].block].body != boundary.region.body) continue;
-      bool in = true;
+      bool in = !surface || mesh::on_surface<dim>(mesh_, faces_[f].nodes, *surface);
       for (const NodeId node : faces_[f].nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
       if (!in) continue;
       heated.emplace_back(f, mesh::face_area(mesh_, faces_[f]));
@@ -129,6 +155,7 @@ class Applier {
   void nothing_there(const SourceLocation& where, const std::string& list, const std::string& name, const Region& region,
                      const std::string& wanted) {
     std::string value = "body " + mesh_.bodies[region.body].name;
+    if (region.surface) value += " on " + *region.surface;
     if (region.within) {
       const Point<dim> low = region.within->min().template head<dim>();
       const Point<dim> high = region.within->max().template head<dim>();

@@ -12,15 +12,16 @@
 
 namespace scree::thermal {
 
-// Where on a body something holds: everywhere, or only inside an axis-aligned box of space.
+// Where on a body something holds: everywhere, or only inside an axis-aligned box of space, on a surface, or both.
 struct Region {
   BodyId body;
   // [m]; includes its faces, with a billionth of the mesh's extent for rounding; 2-D ignores z.
   std::optional<Aabb<3>> within;
+  std::optional<std::string> surface;  // of the body, by its name; boundaries only
 };
 
 struct FixedTemperature {
-  double temperature = 0;  // [K], at every node in the region, inner ones too
+  double temperature = 0;  // [K], at every node in the region; inner ones too, without a surface
 };
 struct HeatFlux {
   double flux = 0;  // [W/m2], into the body, on every boundary face whose corners are all in the region

@@ -28,6 +28,21 @@ struct Block {
   IdRange<ElementId> elements;
 };
 
+// A part of a body's boundary that has a name: a side of a box, a physical group of a mesh file.
+struct NamedSurface {
+  BodyId body;
+  std::string name;
+};
+
+// A face of a block that lies on a named surface; inner faces of a body that is broken into blocks lie on none.
+template <int dim>
+struct SurfaceFace {
+  std::array<NodeId, dim> nodes;  // ascending
+  SurfaceId surface;
+
+  friend auto operator<=>(const SurfaceFace&, const SurfaceFace&) = default;
+};
+
 template <int dim>
 struct BlockMesh {
   static constexpr int corners = dim + 1;
@@ -37,6 +52,8 @@ struct BlockMesh {
   Table<ElementId, Element> elements;
   Table<BlockId, Block> blocks;
   Table<BodyId, Body> bodies;
+  Table<SurfaceId, NamedSurface> surface_names;
+  std::vector<SurfaceFace<dim>> surfaces;  // ascending
 };
 
 // A boundary face of a block: an edge in 2-D, a triangle in 3-D, ordered so that its normal points outwards.

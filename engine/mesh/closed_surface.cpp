@@ -146,9 +146,10 @@ bool reaches_into(const SimplexMesh<3>& inner, const SimplexMesh<3>& outer) {
 }
 
 void check_hollows(const BodySpec& body, const Parts<3>& parts) {
-  for (std::size_t outer = 0; outer < parts.size(); ++outer) {
-    for (std::size_t inner = 0; inner < parts.size(); ++inner) {
-      if (inner == outer || !reaches_into(parts[inner], parts[outer])) continue;
+  const auto& shells = parts.meshes;
+  for (std::size_t outer = 0; outer < shells.size(); ++outer) {
+    for (std::size_t inner = 0; inner < shells.size(); ++inner) {
+      if (inner == outer || !reaches_into(shells[inner], shells[outer])) continue;
       throw file_error(body, fmt::format("shell {} lies inside shell {}", inner + 1, outer + 1),
                        "Give a hollow body as a volume mesh (.msh or .vtu with tetrahedra)");
     }
@@ -163,7 +164,7 @@ Parts<3> fill_surface(const BodySpec& body, const RawMesh& raw) {
   Parts<3> parts;
   try {
     for (const auto& shell : joined.groups(raw.triangles, [](std::size_t t) { return t; })) {
-      parts.push_back(fill(body, shell_of(raw, shell)));
+      parts.meshes.push_back(fill(body, shell_of(raw, shell)));
     }
   } catch (const GmshFailure& failure) {
     throw file_error(body, fmt::format("Gmsh could not mesh its inside: {}", failure.reason),

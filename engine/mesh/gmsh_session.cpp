@@ -50,6 +50,39 @@ std::string kind_name(int type) {
   return name;
 }
 
+// The faces of one of Gmsh's entities.
+void add_faces(int dimension, int entity, const std::unordered_map<std::size_t, std::size_t>& index, RawSurface& surface) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> numbers, nodes;
+  gmsh::model::mesh::getElements(types, numbers, nodes, dimension, entity);
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    const std::size_t corners = nodes[t].size() / std::max<std::size_t>(1, numbers[t].size());
+    for (std::size_t i = 0; i < nodes[t].size(); ++i) {
+      if (i % corners == 0) surface.faces.emplace_back();
+      surface.faces.back().push_back(index.at(nodes[t][i]));
+    }
+  }
+}
+
+// The physical groups of curves and faces; one without a name is called by its number.
+std::vector<RawSurface> physical_groups(const std::unordered_map<std::size_t, std::size_t>& index) {
+  std::vector<RawSurface> surfaces;
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups);
+  for (const auto& [dimension, tag] : groups) {
+    if (dimension != 1 && dimension != 2) continue;
+    RawSurface surface;
+    surface.dimension = dimension;
+    gmsh::model::getPhysicalName(dimension, tag, surface.name);
+    if (surface.name.empty()) surface.name = std::to_string(tag);
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
+    for (const int entity : entities) add_faces(dimension, entity, index, surface);
+    surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
+
 }  // namespace
 
 void with_gmsh(const std::function<void()>& work) {
@@ -104,6 +137,7 @@ RawMesh model_mesh() {
       mesh.unusable[kind_name(types[t])] += numbers[t].size();
     }
   }
+  mesh.surfaces = physical_groups(index);
   return mesh;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/mesh/arrangement.h"
 #include "engine/mesh/mesh_file.h"
 #include "engine/mesh/shape_mesh.h"
+#include "engine/mesh/shape_surfaces.h"
 #include "engine/mesh/simplex_mesh.h"
 
 namespace scree::mesh {
@@ -14,18 +15,20 @@ namespace {
 template <int dim>
 Parts<dim> mesh_parts(const BodySpec& body, const MeshReaders& readers) {
   if (std::holds_alternative<MeshFile>(body.shape)) return mesh_file<dim>(body, readers);
-  return {mesh_shape<dim>(body)};
+  Parts<dim> parts{{mesh_shape<dim>(body)}, {}};
+  name_surfaces<dim>(body.shape, parts);
+  return parts;
 }
 
 template <int dim>
 Bounds bounds_of(const Parts<dim>& parts) {
   Aabb<dim> box;
-  for (const SimplexMesh<dim>& part : parts) {
+  for (const SimplexMesh<dim>& part : parts.meshes) {
     for (const Point<dim>& node : part.nodes) box.extend(node);
   }
   const Point<dim> centre = box.center();
   double radius_sq = 0;
-  for (const SimplexMesh<dim>& part : parts) {
+  for (const SimplexMesh<dim>& part : parts.meshes) {
     for (const Point<dim>& node : part.nodes) radius_sq = std::max(radius_sq, (node - centre).squaredNorm());
   }
   Bounds bounds{.radius = std::sqrt(radius_sq)};
@@ -33,11 +36,29 @@ Bounds bounds_of(const Parts<dim>& parts) {
   return bounds;
 }
 
+// Calls `visit` with every named face that has all its nodes among `element`, and with the places of its nodes there.
+template <int dim, class Visit>
+void faces_of(const std::array<std::size_t, dim + 1>& element, const std::vector<NamedFace<dim>>& named, const Visit& visit) {
+  for (std::size_t out = 0; out <= dim; ++out) {
+    OuterFace<dim> nodes, corners;
+    for (std::size_t i = 0, k = 0; i <= dim; ++i) {
+      if (i != out) corners[k++] = i;
+    }
+    std::transform(corners.begin(), corners.end(), nodes.begin(), [&](std::size_t corner) { return element[corner]; });
+    std::sort(nodes.begin(), nodes.end());
+    const auto before = [](const NamedFace<dim>& face, const OuterFace<dim>& value) { return face.nodes < value; };
+    auto face = std::lower_bound(named.begin(), named.end(), nodes, before);
+    for (; face != named.end() && face->nodes == nodes; ++face) visit(NamedFace<dim>{corners, face->surface});
+  }
+}
+
 // Every element on its own.
 template <int dim>
 Parts<dim> broken(const Parts<dim>& parts) {
-  Parts<dim> pieces;
-  for (const SimplexMesh<dim>& part : parts) {
+  Parts<dim> pieces{{}, parts.surfaces};
+  for (const SimplexMesh<dim>& part : parts.meshes) {
+    auto named = part.named;
+    std::sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.nodes < b.nodes; });
     for (const auto& element : part.elements) {
       SimplexMesh<dim> piece;
       for (std::size_t corner = 0; corner < element.size(); ++corner) {
@@ -45,14 +66,17 @@ Parts<dim> broken(const Parts<dim>& parts) {
         if (corner == 0) piece.elements.emplace_back();
         piece.elements[0][corner] = corner;
       }
-      pieces.push_back(std::move(piece));
+      faces_of<dim>(element, named, [&](const NamedFace<dim>& face) { piece.named.push_back(face); });
+      pieces.meshes.push_back(std::move(piece));
     }
   }
   return pieces;
 }
 
+// Adds a block of the body added last; its surfaces begin with `first_surface`.
 template <int dim>
-void add_block(BlockMesh<dim>& mesh, BodyId body, const SimplexMesh<dim>& part, const Pose& pose) {
+void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMesh<dim>& part, const Pose& pose) {
+  const BodyId body{mesh.bodies.size() - 1};
   const std::size_t first_node = mesh.nodes.size(), first_element = mesh.elements.size();
   for (const Point<dim>& node : part.nodes) {
     Eigen::Vector3d reference = Eigen::Vector3d::Zero();
@@ -63,6 +87,13 @@ void add_block(BlockMesh<dim>& mesh, BodyId body, const SimplexMesh<dim>& part, 
     typename BlockMesh<dim>::Element nodes;
     for (std::size_t corner = 0; corner < element.size(); ++corner) nodes[corner] = NodeId{first_node + element[corner]};
     mesh.elements.push_back(nodes);
+  }
+  for (const NamedFace<dim>& face : part.named) {
+    SurfaceFace<dim> placed;
+    std::transform(face.nodes.begin(), face.nodes.end(), placed.nodes.begin(),
+                   [&](std::size_t node) { return NodeId{first_node + node}; });
+    placed.surface = SurfaceId{first_surface + face.surface};
+    mesh.surfaces.push_back(placed);
   }
   mesh.blocks.push_back({body, {first_node, mesh.nodes.size()}, {first_element, mesh.elements.size()}});
 }
@@ -81,10 +112,13 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
     const Parts<dim>& whole = meshed.back();
     const Parts<dim> pieces = body.blocks == BlockRule::per_element ? broken(whole) : whole;
     const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity});
+    const std::size_t first_surface = mesh.surface_names.size();
+    for (const std::string& name : whole.surfaces) mesh.surface_names.push_back({id, name});
     for (const Pose& pose : poses_of(body, bounds_of(whole), dim)) {
-      for (const SimplexMesh<dim>& piece : pieces) add_block(mesh, id, piece, pose);
+      for (const SimplexMesh<dim>& piece : pieces.meshes) add_block(mesh, first_surface, piece, pose);
     }
   }
+  std::sort(mesh.surfaces.begin(), mesh.surfaces.end());
   return mesh;
 }
 

@@ -99,6 +99,9 @@ Parts<dim> mesh_file(const BodySpec& body, const MeshReaders& readers) {
     throw file_error(body, "it holds no triangles and no tetrahedra", "Export the mesh with its elements");
   }
   check_points(body, raw);
+  raw.surfaces.erase(std::remove_if(raw.surfaces.begin(), raw.surfaces.end(),
+                                    [](const RawSurface& surface) { return surface.dimension != dim - 1; }),
+                     raw.surfaces.end());
   if constexpr (dim == 2) {
     expect_in_plane(body, raw);
   } else if (raw.tetrahedra.empty()) {

@@ -19,12 +19,20 @@ struct RawCell {
   std::array<std::size_t, corners> nodes{};
 };
 
+// The faces of a physical group: lines if its dimension is 1, triangles and quadrilaterals if it is 2.
+struct RawSurface {
+  std::string name;
+  int dimension = 2;
+  std::vector<std::vector<std::size_t>> faces;  // their nodes
+};
+
 struct RawMesh {
   std::vector<Eigen::Vector3d> points;     // in the file's unit
   std::vector<std::size_t> point_numbers;  // as the file counts, for messages
   std::vector<std::size_t> marked;         // points of point and line elements, which are otherwise left out
   std::vector<RawCell<3>> triangles;
   std::vector<RawCell<4>> tetrahedra;
+  std::vector<RawSurface> surfaces;
   std::map<std::string, std::size_t> unusable;  // any other kind of element, with its count
 };
 

@@ -8,6 +8,27 @@
 
 namespace scree::mesh {
 
+namespace {
+
+constexpr auto not_there = static_cast<std::size_t>(-1);
+
+// A face of a surface is an outer face of the mesh, or there is none of these nodes.
+template <int dim>
+void name_faces(const RawMesh& raw, const std::vector<std::size_t>& place, SimplexMesh<dim>& mesh) {
+  const std::vector<OuterFace<dim>> outer = outer_faces(mesh);
+  for (std::size_t surface = 0; surface < raw.surfaces.size(); ++surface) {
+    for (const std::vector<std::size_t>& face : raw.surfaces[surface].faces) {
+      OuterFace<dim> nodes;
+      if (face.size() != nodes.size()) continue;
+      std::transform(face.begin(), face.end(), nodes.begin(), [&](std::size_t node) { return place[node]; });
+      std::sort(nodes.begin(), nodes.end());
+      if (std::binary_search(outer.begin(), outer.end(), nodes)) mesh.named.push_back({nodes, surface});
+    }
+  }
+}
+
+}  // namespace
+
 template <>
 const std::vector<RawCell<3>>& element_cells<2>(const RawMesh& raw) {
   return raw.triangles;
@@ -41,15 +62,39 @@ double worst_quality(const SimplexMesh<dim>& mesh) {
 }
 
 template <int dim>
+std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh) {
+  std::vector<OuterFace<dim>> faces;
+  for (const auto& element : mesh.elements) {
+    for (std::size_t out = 0; out <= dim; ++out) {
+      OuterFace<dim> face;
+      for (std::size_t i = 0, k = 0; i <= dim; ++i) {
+        if (i != out) face[k++] = element[i];
+      }
+      std::sort(face.begin(), face.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  std::vector<OuterFace<dim>> outer;
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t next = i + 1;
+    while (next < faces.size() && faces[next] == faces[i]) ++next;
+    if (next == i + 1) outer.push_back(faces[i]);
+    i = next;
+  }
+  return outer;
+}
+
+template <int dim>
 SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen) {
   const auto& cells = element_cells<dim>(raw);
-  std::vector<std::size_t> place(raw.points.size(), 0);
+  std::vector<std::size_t> place(raw.points.size(), not_there);
   for (const std::size_t e : chosen) {
-    for (const std::size_t node : cells[e].nodes) place[node] = 1;
+    for (const std::size_t node : cells[e].nodes) place[node] = 0;
   }
   SimplexMesh<dim> mesh;
   for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] == 0) continue;
+    if (place[i] == not_there) continue;
     place[i] = mesh.nodes.size();
     mesh.nodes.push_back(raw.points[i].template head<dim>());
   }
@@ -58,6 +103,7 @@ SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& cho
     for (std::size_t& node : nodes) node = place[node];
     mesh.elements.push_back(nodes);
   }
+  if (!raw.surfaces.empty()) name_faces(raw, place, mesh);
   return mesh;
 }
 
@@ -72,6 +118,8 @@ template double signed_volume<2>(const std::array<Point<2>, 3>&);
 template double signed_volume<3>(const std::array<Point<3>, 4>&);
 template double worst_quality<2>(const SimplexMesh<2>&);
 template double worst_quality<3>(const SimplexMesh<3>&);
+template std::vector<OuterFace<2>> outer_faces<2>(const SimplexMesh<2>&);
+template std::vector<OuterFace<3>> outer_faces<3>(const SimplexMesh<3>&);
 template SimplexMesh<2> part_of<2>(const RawMesh&, const std::vector<std::size_t>&);
 template SimplexMesh<3> part_of<3>(const RawMesh&, const std::vector<std::size_t>&);
 template SimplexMesh<2> whole_of<2>(const RawMesh&);

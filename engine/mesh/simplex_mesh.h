@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "engine/base/geometry.h"
@@ -10,15 +11,29 @@
 
 namespace scree::mesh {
 
+// A face on the outside of a mesh, by its nodes in ascending order.
+template <int dim>
+using OuterFace = std::array<std::size_t, dim>;
+
+template <int dim>
+struct NamedFace {
+  OuterFace<dim> nodes;
+  std::size_t surface = 0;  // whose name it is, of Parts::surfaces
+};
+
 template <int dim>
 struct SimplexMesh {
   std::vector<Point<dim>> nodes;                           // [m]
   std::vector<std::array<std::size_t, dim + 1>> elements;  // positively oriented
+  std::vector<NamedFace<dim>> named;
 };
 
 // One connected mesh or, from a file, several that share no node.
 template <int dim>
-using Parts = std::vector<SimplexMesh<dim>>;
+struct Parts {
+  std::vector<SimplexMesh<dim>> meshes;
+  std::vector<std::string> surfaces;  // the names of their surfaces
+};
 
 // The cells that are elements in this dimension.
 template <int dim>
@@ -32,7 +47,11 @@ double signed_volume(const std::array<Point<dim>, dim + 1>& corners);
 template <int dim>
 double worst_quality(const SimplexMesh<dim>& mesh);
 
-// The elements `chosen` of `raw` and the nodes they use, both in the order of `raw`.
+// The faces that belong to one element only, ascending.
+template <int dim>
+std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh);
+
+// The elements `chosen` of `raw` and the nodes they use, both in the order of `raw`, with the faces on its surfaces.
 template <int dim>
 SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen);
 

@@ -108,8 +108,9 @@ Parts<dim> checked_volume(const BodySpec& body, const RawMesh& raw) {
   }
   Parts<dim> parts;
   for (const auto& part : joined.groups(cells, [&](std::size_t e) { return cells[e].nodes[0]; })) {
-    parts.push_back(part_of<dim>(raw, part));
+    parts.meshes.push_back(part_of<dim>(raw, part));
   }
+  for (const RawSurface& surface : raw.surfaces) parts.surfaces.push_back(surface.name);
   return parts;
 }
 

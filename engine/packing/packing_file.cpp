@@ -15,7 +15,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -34,7 +34,8 @@ constexpr std::array report_numbers{&SettleReport::simulated_time,
 struct Lists {
   std::vector<double> nodes, velocities, poses, report;         // rows of dim, 3, 7 (translation; rotation x y z w), 1
   std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 5, 2, 1
-  std::vector<std::string> texts;                               // the bodies' names, then the criterion, if any
+  std::vector<std::int64_t> surfaces, surface_bodies;           // rows of dim nodes and the surface, 1
+  std::vector<std::string> texts;  // the names of the bodies, of the surfaces, then the criterion, if any
 };
 
 template <int dim>
@@ -55,6 +56,14 @@ Lists pack(const Packing<dim>& packing) {
     lists.bodies.insert(lists.bodies.end(), {body.material.value(), body.fixed ? 1 : 0});
     lists.velocities.insert(lists.velocities.end(), body.velocity.begin(), body.velocity.end());
   }
+  for (const mesh::NamedSurface& surface : packing.mesh.surface_names) {
+    lists.texts.push_back(surface.name);
+    lists.surface_bodies.push_back(surface.body.value());
+  }
+  for (const auto& face : packing.mesh.surfaces) {
+    for (const NodeId node : face.nodes) lists.surfaces.push_back(node.value());
+    lists.surfaces.push_back(face.surface.value());
+  }
   for (const Pose& pose : packing.poses) {
     lists.poses.insert(lists.poses.end(), pose.translation.begin(), pose.translation.end());
     lists.poses.insert(lists.poses.end(), pose.rotation.coeffs().begin(), pose.rotation.coeffs().end());
@@ -66,6 +75,20 @@ Lists pack(const Packing<dim>& packing) {
     for (const BlockId block : packing.settled->lost_blocks) lists.outcome.push_back(block.value());
   }
   return lists;
+}
+
+template <int dim>
+void unpack_surfaces(const Lists& lists, mesh::BlockMesh<dim>& mesh) {
+  for (std::size_t s = 0; s < lists.surface_bodies.size(); ++s) {
+    const auto body = static_cast<std::size_t>(lists.surface_bodies[s]);
+    mesh.surface_names.push_back({BodyId{body}, lists.texts.at(mesh.bodies.size() + s)});
+  }
+  for (std::size_t i = 0; i + dim < lists.surfaces.size(); i += dim + 1) {
+    mesh::SurfaceFace<dim> face;
+    for (std::size_t k = 0; k < dim; ++k) face.nodes[k] = NodeId{static_cast<std::size_t>(lists.surfaces[i + k])};
+    face.surface = SurfaceId{static_cast<std::size_t>(lists.surfaces[i + dim])};
+    mesh.surfaces.push_back(face);
+  }
 }
 
 template <int dim>
@@ -88,6 +111,7 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
     mesh.bodies.push_back({lists.texts.at(b), material < 0 ? MaterialId{} : MaterialId{at(lists.bodies, 2 * b)},
                            lists.bodies.at(2 * b + 1) != 0, Eigen::Vector3d(&lists.velocities.at(3 * b))});
   }
+  unpack_surfaces(lists, mesh);
   return mesh;
 }
 
@@ -120,15 +144,28 @@ std::string digest(const std::string& key, const Lists& lists) {
     hasher.add(list.size()).add_bytes(list.data(), list.size() * sizeof list[0]);
   };
   for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report}) add(*list);
-  for (const auto* list : {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome}) add(*list);
+  for (const auto* list :
+       {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.surfaces, &lists.surface_bodies}) {
+    add(*list);
+  }
   for (const std::string& text : lists.texts) hasher.add(text);
   return hasher.hex();
 }
 
 Lists read_lists(const H5::H5File& in) {
-  return {doubles(in, "nodes"),   doubles(in, "velocities"), doubles(in, "poses"),
-          doubles(in, "report"),  integers(in, "elements"),  integers(in, "blocks"),
-          integers(in, "bodies"), integers(in, "outcome"),   texts(in, "texts")};
+  Lists lists;
+  for (const auto& [name, list] : {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities),
+                                   std::pair("poses", &lists.poses), std::pair("report", &lists.report)}) {
+    *list = doubles(in, name);
+  }
+  for (const auto& [name, list] :
+       {std::pair("elements", &lists.elements), std::pair("blocks", &lists.blocks), std::pair("bodies", &lists.bodies),
+        std::pair("outcome", &lists.outcome), std::pair("surfaces", &lists.surfaces),
+        std::pair("surface_bodies", &lists.surface_bodies)}) {
+    *list = integers(in, name);
+  }
+  lists.texts = texts(in, "texts");
+  return lists;
 }
 
 InputError refusal(const std::filesystem::path& file, const std::string& value, const std::string& rule,
@@ -176,6 +213,8 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put("poses", lists.poses, 7);
   image.put("report", lists.report);
   image.put("outcome", lists.outcome);
+  image.put("surfaces", lists.surfaces, dim + 1);
+  image.put("surface_bodies", lists.surface_bodies);
   image.put("texts", lists.texts);
   write_text(file, image.bytes());
 }

@@ -17,14 +17,14 @@ using testing::StartsWith;
 using MeshFiles = MeshFileTest;
 
 const Points corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-const Cell one_tetrahedron{Kind::tetrahedron, {1, 2, 3, 4}};
+const FileCell one_tetrahedron{Kind::tetrahedron, {1, 2, 3, 4}};
 
 Points both(Points first, const Points& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
 
-std::vector<Cell> both(std::vector<Cell> first, const std::vector<Cell>& second) {
+std::vector<FileCell> both(std::vector<FileCell> first, const std::vector<FileCell>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -65,7 +65,7 @@ TEST_F(MeshFiles, ASurfaceInAMeshFileIsMeshedInsideToo) {
 
 TEST_F(MeshFiles, WhichWayASurfaceFacesDoesNotMatter) {
   auto triangles = cube_triangles();
-  for (Cell& cell : triangles) std::swap(cell.nodes[1], cell.nodes[2]);
+  for (FileCell& cell : triangles) std::swap(cell.nodes[1], cell.nodes[2]);
   const auto inside_out = make_blocks<3>({body_with("out.msh", msh_text(cube_points(), triangles))});
   EXPECT_NEAR(total_volume(inside_out), 1, 1e-13);
   std::swap(triangles[3].nodes[1], triangles[3].nodes[2]);
@@ -97,7 +97,7 @@ TEST_F(MeshFiles, TrianglesAreTheElementsInThePlane) {
 
 TEST_F(MeshFiles, LoosePartsAreBlocksOfTheirOwn) {
   const Points points = both(corners, {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}});
-  const Cell second{Kind::tetrahedron, {5, 6, 7, 8}};
+  const FileCell second{Kind::tetrahedron, {5, 6, 7, 8}};
   EXPECT_EQ(make_blocks<3>({body_with("two.msh", msh_text(points, {one_tetrahedron, second}))}).blocks.size(), 2u);
   const auto shells =
       body_with("shells.msh", msh_text(both(cube_points(), cube_points(3)), both(cube_triangles(), cube_triangles(9))));
@@ -107,7 +107,7 @@ TEST_F(MeshFiles, LoosePartsAreBlocksOfTheirOwn) {
 }
 
 TEST_F(MeshFiles, FacesBesideTetrahedraAreTheirBoundary) {
-  const Cell face{Kind::triangle, {1, 3, 2}}, line{Kind::line, {1, 2}};
+  const FileCell face{Kind::triangle, {1, 3, 2}}, line{Kind::line, {1, 2}};
   const auto mesh = make_blocks<3>({body_with("tet.msh", msh_text(corners, {line, face, one_tetrahedron}))});
   EXPECT_EQ(mesh.elements.size(), 1u);
 }
@@ -145,7 +145,7 @@ TEST_F(MeshFiles, AnEmptyMeshIsRefused) {
 }
 
 TEST_F(MeshFiles, ElementsThatAreNoSimplicesAreNamed) {
-  const Cell hexahedron{Kind::hexahedron, {1, 2, 4, 3, 5, 6, 8, 7}};
+  const FileCell hexahedron{Kind::hexahedron, {1, 2, 4, 3, 5, 6, 8, 7}};
   EXPECT_EQ(
       refusal("hexahedron.msh", msh_text(cube_points(), {hexahedron})),
       "(must hold first-order triangles or tetrahedra only; it holds 1 x Hexahedron 8). Mesh the shape with tetrahedra of "
@@ -162,7 +162,7 @@ TEST_F(MeshFiles, AnOpenSurfaceTellsItsOpenEdges) {
 
 TEST_F(MeshFiles, ASurfaceWithAFinIsRefused) {
   const Points points = both(cube_points(), {{-1, -1, 0}, {-1, -1, 1}});
-  const std::vector<Cell> fin{
+  const std::vector<FileCell> fin{
       {Kind::triangle, {1, 5, 9}}, {Kind::triangle, {5, 10, 9}}, {Kind::triangle, {1, 9, 10}}, {Kind::triangle, {1, 10, 5}}};
   EXPECT_EQ(refusal("fin.msh", msh_text(points, both(cube_triangles(), fin))),
             "(must be closed; 1 of its edges have more than two triangles, the first from (0, 0, 0) m to (0, 0, 1) m). "
@@ -192,7 +192,7 @@ TEST_F(MeshFiles, AFlatTriangleIsRefused) {
 }
 
 TEST_F(MeshFiles, AnInvertedElementIsNamed) {
-  const Cell inverted{Kind::tetrahedron, {1, 2, 3, 5}};
+  const FileCell inverted{Kind::tetrahedron, {1, 2, 3, 5}};
   EXPECT_EQ(refusal("inverted.msh", msh_text(both(corners, {{0, 0, -1}}), {one_tetrahedron, inverted})),
             "(tetrahedron 2 is inside out). Mesh the shape again");
   EXPECT_EQ(refusal<2>("clockwise.msh", msh_text({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{Kind::triangle, {1, 3, 2}}})),
@@ -200,7 +200,7 @@ TEST_F(MeshFiles, AnInvertedElementIsNamed) {
 }
 
 TEST_F(MeshFiles, AFlatElementIsNamed) {
-  const Cell flat{Kind::tetrahedron, {1, 2, 3, 5}};
+  const FileCell flat{Kind::tetrahedron, {1, 2, 3, 5}};
   EXPECT_EQ(refusal("flat.msh", msh_text(both(corners, {{1, 1, 0}}), {one_tetrahedron, flat})),
             "(tetrahedron 2 is flat). Mesh the shape again");
 }
@@ -211,7 +211,7 @@ TEST_F(MeshFiles, OverlappingElementsAreNamed) {
 }
 
 TEST_F(MeshFiles, TwoNodesAtOnePlaceAreNamed) {
-  const Cell second{Kind::tetrahedron, {5, 6, 7, 8}};
+  const FileCell second{Kind::tetrahedron, {5, 6, 7, 8}};
   EXPECT_EQ(
       refusal("double.msh", msh_text(both(corners, {{0, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 2}}), {one_tetrahedron, second})),
       "(nodes 1 and 5 are at the same place). Merge such nodes (in Gmsh: Mesh, Remove duplicate nodes), or make touching "

@@ -15,7 +15,7 @@ namespace scree::mesh {
 // Element types as Gmsh numbers them.
 enum class Kind { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5 };
 
-struct Cell {
+struct FileCell {
   Kind kind;
   std::vector<int> nodes;  // counted from 1
 };
@@ -23,14 +23,18 @@ struct Cell {
 using Points = std::vector<std::array<double, 3>>;
 
 // MSH 4.1 in text. Nodes and elements are numbered from 1.
-std::string msh_text(const Points& points, const std::vector<Cell>& cells);
+std::string msh_text(const Points& points, const std::vector<FileCell>& cells);
 
 // The eight corners of a unit cube at `low`, and its surface in twelve triangles that face outwards.
 Points cube_points(double low = 0);
-std::vector<Cell> cube_triangles(int first_node = 1);
+std::vector<FileCell> cube_triangles(int first_node = 1);
 
 // A 1 x 2 x 3 box of tetrahedra about 0.5 long (.msh) or its surface (.stl), written by Gmsh.
 void write_box(const std::filesystem::path& file, bool binary);
+
+// The same box with its elements in a physical group, its lowest face in one called "ground", its highest in one without a
+// name, number 7; in 2-D the rectangle of that size with its lower and upper edges.
+void write_box_with_groups(const std::filesystem::path& file, int dimension);
 
 // A test with a directory of its own, gone afterwards.
 class MeshFileTest : public testing::Test {

@@ -43,9 +43,23 @@ Packing<dim> awkward_packing() {
     packing.mesh.elements.push_back(element);
     const std::size_t nodes = dim + 1;
     packing.mesh.blocks.push_back({BodyId{block}, {nodes * block, nodes * (block + 1)}, {block, block + 1}});
+    const SurfaceId surface = packing.mesh.surface_names.push_back({BodyId{block}, "x, low"});
+    mesh::SurfaceFace<dim> face{{}, surface};
+    std::copy_n(element.begin() + 1, dim, face.nodes.begin());
+    packing.mesh.surfaces.push_back(face);
     packing.poses.push_back({{1.0 / 3, -0.0, 1e300}, Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4).normalized()});
   }
   return packing;
+}
+
+template <int dim>
+void expect_same_surfaces(const mesh::BlockMesh<dim>& a, const mesh::BlockMesh<dim>& b) {
+  EXPECT_EQ(a.surfaces, b.surfaces);
+  ASSERT_EQ(a.surface_names.size(), b.surface_names.size());
+  for (const SurfaceId surface : a.surface_names.ids()) {
+    EXPECT_EQ(a.surface_names[surface].body, b.surface_names[surface].body);
+    EXPECT_EQ(a.surface_names[surface].name, b.surface_names[surface].name);
+  }
 }
 
 template <int dim>
@@ -68,6 +82,7 @@ void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
     EXPECT_EQ(a.mesh.bodies[body].fixed, b.mesh.bodies[body].fixed);
     EXPECT_EQ(a.mesh.bodies[body].velocity, b.mesh.bodies[body].velocity);
   }
+  expect_same_surfaces(a.mesh, b.mesh);
 }
 
 std::string bytes_of(const std::filesystem::path& file) {

@@ -124,6 +124,7 @@ std::vector<Change> heat_changes() {
           {"heat.initial", {}, "heat.initial=1"},
           {"heat.initial.*", {"heat.initial={plate: 1, block: 2}"}, "heat.initial.plate=2"},
           {"heat.boundaries[].body", {}, "heat.boundaries[0].body=block"},
+          {"heat.boundaries[].surface", {}, "heat.boundaries[0].surface=top"},
           {"heat.boundaries[].temperature", {}, "heat.boundaries[0].temperature=1"},
           {"heat.boundaries[].flux", {}, "heat.boundaries[1].flux=1"},
           {"heat.boundaries[].flow", {}, "heat.boundaries[2].flow=1"},

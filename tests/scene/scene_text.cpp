@@ -60,8 +60,9 @@ std::string text_of(const mesh::AtRandom& random) {
 }
 
 std::string text_of(const thermal::Region& region) {
-  if (!region.within) return fmt::format("body {}", region.body.value());
-  return fmt::format("body {} {} {}", region.body.value(), text_of(region.within->min()), text_of(region.within->max()));
+  const std::string body = fmt::format("body {} {}", region.body.value(), region.surface.value_or(""));
+  if (!region.within) return body;
+  return fmt::format("{} {} {}", body, text_of(region.within->min()), text_of(region.within->max()));
 }
 std::string text_of(const thermal::FixedTemperature& c) {
   return fmt::format("temperature {}", c.temperature);

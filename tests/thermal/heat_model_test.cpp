@@ -198,6 +198,65 @@ TEST(HeatModelErrors, ARegionThatHoldsNothingSaysWhereTheBodyIs) {
   EXPECT_THAT(message, HasSubstr("heat.sources: source"));
 }
 
+// The first side of every cell in x on "left", whatever the mesh is made of.
+template <int dim>
+mesh::BlockMesh<dim> named_bar() {
+  auto mesh = slab_mesh<dim>({bar<dim>(2.0, 4, 2, 0.5)});
+  const SurfaceId left = mesh.surface_names.push_back({BodyId{0}, "left"});
+  mesh.surface_names.push_back({BodyId{0}, "right"});
+  for (const auto& face : mesh::boundary_faces(mesh)) {
+    const bool on_it = std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId n) { return mesh.nodes[n][0] == 0; });
+    auto nodes = face.nodes;
+    std::sort(nodes.begin(), nodes.end());
+    if (on_it) mesh.surfaces.push_back({nodes, left});
+  }
+  std::sort(mesh.surfaces.begin(), mesh.surfaces.end());
+  return mesh;
+}
+
+TYPED_TEST(HeatModels, ASurfaceTakesTheHeatOfTheRegionThatHoldsItsFaces) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = named_bar<dim>();
+  HeatOptions by_surface = options_for(mesh, 300), by_region = options_for(mesh, 300);
+  for (HeatOptions* options : {&by_surface, &by_region}) {
+    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, HeatFlux{12}, "flux", {}});
+    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, HeatFlow{-5}, "flow", {}});
+    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, FixedTemperature{400}, "held", {}});
+  }
+  for (Boundary& boundary : by_surface.boundaries) {
+    boundary.region.within.reset();
+    boundary.region.surface = "left";
+  }
+  const HeatModel a = make_heat_model(mesh, rock_only(), {}, by_surface), b = make_heat_model(mesh, rock_only(), {}, by_region);
+  EXPECT_EQ(a.load, b.load);
+  EXPECT_EQ(a.fixed_nodes, b.fixed_nodes);
+  EXPECT_EQ(a.applied_flows, b.applied_flows);
+  EXPECT_NEAR(a.load.sum(), 12 * (dim == 2 ? 0.5 : 0.25) - 5, 1e-12);
+}
+
+TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = named_bar<dim>();
+  HeatOptions options = options_for(mesh, 300);
+  const Aabb<3> lower({-1, -1, -1}, {3, 0.25, 1});
+  options.boundaries.push_back({{BodyId{0}, lower, "left"}, HeatFlux{1}, "flux", {}});
+  options.boundaries.push_back({{BodyId{0}, lower, "left"}, FixedTemperature{400}, "held", {}});
+  const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
+  EXPECT_NEAR(model.load.sum(), dim == 2 ? 0.25 : 0.125, 1e-13);
+  EXPECT_EQ(model.fixed_nodes.size(), dim == 2 ? 2u : 6u);
+}
+
+TEST(HeatModelErrors, AnUnknownSurfaceIsAnsweredWithThoseThatThereAre) {
+  const auto mesh = named_bar<3>();
+  HeatOptions options = options_for(mesh, 300);
+  options.boundaries.push_back({{BodyId{0}, std::nullopt, "top"}, HeatFlux{1}, "flux", {"a.yaml", 7, 3}});
+  options.boundaries.push_back({{BodyId{0}, std::nullopt, "right"}, FixedTemperature{1}, "held", {}});
+  const std::string message = message_of([&] { make_heat_model(mesh, rock_only(), {}, options); });
+  EXPECT_THAT(message, HasSubstr("a.yaml:7:3: heat.boundaries: flux: surface is top (must be a surface of body body0). Body "
+                                 "body0 has left, right"));
+  EXPECT_THAT(message, HasSubstr("heat.boundaries: held is body body0 on right (must hold at least one node)"));
+}
+
 TEST(HeatModelErrors, TwoTemperaturesForOneNodeAreRefused) {
   const auto mesh = slab_mesh<2>({bar<2>(2.0, 4, 3, 0.5)});
   HeatOptions options = options_for(mesh, 300);

@@ -35,6 +35,11 @@ void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
     hash.add(body.name).add(body.material.value()).add(body.fixed);
     hash.add_bytes(body.velocity.data(), sizeof(double) * 3);
   }
+  for (const mesh::NamedSurface& surface : mesh.surface_names) hash.add(surface.body.value()).add(surface.name);
+  for (const auto& face : mesh.surfaces) {
+    for (const NodeId node : face.nodes) hash.add(node.value());
+    hash.add(face.surface.value());
+  }
 }
 
 }  // namespace

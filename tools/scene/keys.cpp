@@ -245,6 +245,9 @@ Keys boundary_keys() {
       row("heat.boundaries", KeyType::list, "What happens at the surface of bodies; elsewhere it is insulated.").fallback("[]"),
       row("heat.boundaries[]", section, "One boundary."),
       row("heat.boundaries[].body", name, "The body it is on.").required(),
+      row("heat.boundaries[].surface", name,
+          "Only on this surface: x_low to z_high, side, bottom, top, surface of a sphere, a physical group of an .msh.")
+          .otherwise("the whole body"),
       row("heat.boundaries[].temperature", quantity, "Held at every node of the part, inner ones too.", q::temperature,
           not_negative)
           .required()

@@ -34,6 +34,7 @@ std::string ledger_name(const Checked& part, const std::string& kind, Names& nam
 thermal::Region read_region(const Checked& part, const Names& names, int dimension, Problems& problems) {
   thermal::Region region;
   region.body = resolve<BodyId>(part.at("body"), names.bodies, "body", problems);
+  if (const Checked* surface = part.find("surface")) region.surface = surface->text;
   if (const Checked* within = part.find("within")) {
     check_corners(*within, Flat::allowed, dimension, problems);
     region.within = Aabb<3>(within->at("low").vector(), within->at("high").vector());

@@ -1,0 +1,124 @@
+#include "engine/mesh/surfaces.h"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+#include "tests/mesh/body_builders.h"
+#include "tests/mesh/sample_files.h"
+
+namespace scree::mesh {
+namespace {
+
+using testing::ElementsAre;
+
+template <int dim>
+double face_area(const BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes) {
+  const Point<dim> u = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
+  if constexpr (dim == 3) return u.cross(mesh.nodes[nodes[2]] - mesh.nodes[nodes[0]]).norm() / 2;
+  return u.norm();
+}
+
+template <int dim>
+double area_of(const BlockMesh<dim>& mesh, BodyId body, const std::string& name) {
+  const SurfaceId surface = find_surface(mesh, body, name).value();
+  double area = 0;
+  for (const auto& face : mesh.surfaces) area += face.surface == surface ? face_area<dim>(mesh, face.nodes) : 0;
+  return area;
+}
+
+// Every boundary face of a mesh of whole bodies lies on one surface.
+template <int dim>
+void expect_all_named(const BlockMesh<dim>& mesh) {
+  EXPECT_EQ(mesh.surfaces.size(), boundary_faces(mesh).size());
+  for (const auto& face : boundary_faces(mesh)) {
+    int surfaces = 0;
+    for (const SurfaceId surface : mesh.surface_names.ids()) surfaces += on_surface<dim>(mesh, face.nodes, surface) ? 1 : 0;
+    EXPECT_EQ(surfaces, 1);
+  }
+}
+
+TEST(Surfaces, TheSidesOfABoxHaveTheirNamesPlacesAndAreas) {
+  const auto mesh = make_blocks<3>({body_of(box_of(0.4, 0.3, 0.2), 0.08)});
+  EXPECT_THAT(surface_names(mesh, BodyId{0}), ElementsAre("x_low", "x_high", "y_low", "y_high", "z_low", "z_high"));
+  expect_all_named(mesh);
+  const double areas[3] = {0.3 * 0.2, 0.4 * 0.2, 0.4 * 0.3}, halves[3] = {0.2, 0.15, 0.1};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool high : {false, true}) {
+      const std::string name = std::string(1, "xyz"[axis]) + (high ? "_high" : "_low");
+      EXPECT_NEAR(area_of(mesh, BodyId{0}, name), areas[axis], 1e-14) << name;
+      for (const NodeId node : surface_nodes(mesh, *find_surface(mesh, BodyId{0}, name))) {
+        EXPECT_EQ(mesh.nodes[node][axis], high ? halves[axis] : -halves[axis]) << name;
+      }
+    }
+  }
+}
+
+TEST(Surfaces, ARectangleHasFourAndADiscOne) {
+  const auto mesh = make_blocks<2>({body_of(box_of(2, 1, 0), 0.2), body_of(Sphere{2}, 0.1)});
+  EXPECT_THAT(surface_names(mesh, BodyId{0}), ElementsAre("x_low", "x_high", "y_low", "y_high"));
+  EXPECT_THAT(surface_names(mesh, BodyId{1}), ElementsAre("surface"));
+  expect_all_named(mesh);
+  EXPECT_NEAR(area_of(mesh, BodyId{0}, "y_high"), 2, 1e-13);
+  EXPECT_NEAR(area_of(mesh, BodyId{1}, "surface"), 2 * std::numbers::pi, 0.01);
+}
+
+TEST(Surfaces, ACylinderHasASideABottomAndATop) {
+  const auto mesh = make_blocks<3>({body_of(Cylinder{0.4, 0.2}, 0.05), body_of(Sphere{0.4}, 0.3)});
+  expect_all_named(mesh);
+  EXPECT_NEAR(area_of(mesh, BodyId{0}, "side"), std::numbers::pi * 0.4 * 0.2, 0.01 * 0.25);
+  const double disc = area_of(mesh, BodyId{0}, "bottom");
+  EXPECT_NEAR(disc, std::numbers::pi * 0.04, 0.02 * 0.12);
+  EXPECT_NEAR(area_of(mesh, BodyId{0}, "top"), disc, 0.01 * disc);
+}
+
+TEST(Surfaces, ATurnedCopyKeepsTheNamesOfItsShape) {
+  BodySpec body = body_of(box_of(0.4, 0.4, 0.4), 0.2);
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
+  body.arrangement = AtPoses{{Pose{}, Pose{{5, 0, 0}, quarter}}};
+  const auto mesh = make_blocks<3>({body});
+  expect_all_named(mesh);
+  EXPECT_NEAR(area_of(mesh, BodyId{0}, "x_high"), 2 * 0.16, 1e-14);
+  const auto nodes = surface_nodes(mesh, *find_surface(mesh, BodyId{0}, "x_high"));
+  for (const NodeId node : nodes) {
+    const bool turned = mesh.nodes[node].x() > 2;
+    EXPECT_NEAR(mesh.nodes[node][turned ? 1 : 0], 0.2, 1e-15);  // x_high of the turned one looks along y
+  }
+}
+
+TEST(Surfaces, ABrokenBodyKeepsTheNamesOfItsOuterFacesOnly) {
+  const auto whole = make_blocks<3>({body_of(box_of(0.4, 0.3, 0.2), 0.1)});
+  const auto broken = make_blocks<3>({body_of(box_of(0.4, 0.3, 0.2), 0.1, BlockRule::per_element)});
+  EXPECT_EQ(broken.surfaces.size(), whole.surfaces.size());
+  EXPECT_TRUE(std::is_sorted(broken.surfaces.begin(), broken.surfaces.end()));
+  for (const std::string& name : surface_names(whole, BodyId{0})) {
+    EXPECT_NEAR(area_of(broken, BodyId{0}, name), area_of(whole, BodyId{0}, name), 1e-14);
+  }
+  for (const NodeId node : surface_nodes(broken, *find_surface(broken, BodyId{0}, "z_low"))) {
+    EXPECT_EQ(broken.nodes[node].z(), -0.1);
+  }
+}
+
+using SurfacesOfFiles = MeshFileTest;
+
+TEST_F(SurfacesOfFiles, PhysicalGroupsAreTheSurfacesOfAMeshFile) {
+  write_box_with_groups(directory_ / "box.msh", 3);
+  const auto box = make_blocks<3>({body_with("box.msh", "")});
+  EXPECT_THAT(surface_names(box, BodyId{0}), ElementsAre("ground", "7"));
+  EXPECT_NEAR(area_of(box, BodyId{0}, "ground"), 2, 1e-13);
+  for (const NodeId node : surface_nodes(box, *find_surface(box, BodyId{0}, "7"))) EXPECT_EQ(box.nodes[node].z(), 3);
+  write_box_with_groups(directory_ / "plate.msh", 2);
+  const auto plate = make_blocks<2>({body_with("plate.msh", "")});
+  EXPECT_THAT(surface_names(plate, BodyId{0}), ElementsAre("ground", "7"));
+  EXPECT_NEAR(area_of(plate, BodyId{0}, "7"), 1, 1e-13);
+}
+
+TEST(Surfaces, OneThatIsNotThereIsNotFound) {
+  const auto mesh = make_blocks<3>({body_of(Sphere{1}, 1), body_of(box_of(1, 1, 1), 1)});
+  EXPECT_FALSE(find_surface(mesh, BodyId{0}, "x_low"));
+  EXPECT_FALSE(find_surface(mesh, BodyId{1}, "surface"));
+  EXPECT_TRUE(find_surface(mesh, BodyId{1}, "x_low"));
+}
+
+}  // namespace
+}  // namespace scree::mesh
