@@ -7,6 +7,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(yaml-cpp REQUIRED)
+pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).

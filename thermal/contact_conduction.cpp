@@ -21,7 +21,7 @@ template <int dim>
 double mean_conductivity(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                          const contact::Contact<dim>& contact) {
   const auto conductivity = [&](BlockId block) {
-    return materials[mesh.bodies[mesh.blocks[block].body].material].conductivity.value();
+    return materials[mesh.bodies[mesh.blocks[block].body].material].conductivity.value().value.constant().value();
   };
   return 0.5 * (conductivity(contact.owner) + conductivity(contact.target));
 }

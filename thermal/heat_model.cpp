@@ -27,9 +27,11 @@ class MissingValues {
     problems_.push_back(problem(key, value, rule, suggestion));
   }
 
-  void need(const std::optional<double>& property, const std::string& key, const std::string& unit) {
-    if (property && std::isfinite(*property) && *property > 0) return;
-    const std::string value = property ? fmt::format("{:g}", *property) : "missing";
+  // A property that varies with temperature keeps to its rule by itself.
+  void need(const std::optional<Curve>& property, const std::string& key, const std::string& unit) {
+    const std::optional<double> constant = property ? property->constant() : std::nullopt;
+    if (property && (!constant || (std::isfinite(*constant) && *constant > 0))) return;
+    const std::string value = property ? fmt::format("{:g}", *constant) : "missing";
     add(key, value, "must be positive, " + unit, "Heat needs it in every material that a body is made of");
   }
 
@@ -40,6 +42,10 @@ class MissingValues {
  private:
   std::vector<Problem> problems_;
 };
+
+std::optional<Curve> value_of(const std::optional<Conductivity>& conductivity) {
+  return conductivity ? std::optional<Curve>(conductivity->value) : std::nullopt;
+}
 
 template <int dim>
 void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatOptions& options) {
@@ -54,7 +60,7 @@ void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mate
       checked[id] = 1;
       const std::string key = "materials." + materials[id].name;
       missing.need(materials[id].density, key + ".density", "kg/m3");
-      missing.need(materials[id].conductivity, key + ".conductivity", "W/m/K");
+      missing.need(value_of(materials[id].conductivity), key + ".conductivity", "W/m/K");
       missing.need(materials[id].specific_heat, key + ".specific_heat", "J/kg/K");
     }
     if (body.index() >= options.initial_temperature.size() || !std::isfinite(options.initial_temperature[body])) {
@@ -70,10 +76,11 @@ void add_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Materi
                 Triplets& entries) {
   for (const BlockId b : mesh.blocks.ids()) {
     const Material& material = material_of(mesh, materials, b);
-    const double volumetric_heat = *material.density * *material.specific_heat;
+    const double volumetric_heat = *material.density * material.specific_heat->constant().value();
     for (const ElementId e : mesh.blocks[b].elements) {
       const auto& nodes = mesh.elements[e];
-      const CornerMatrix<dim> conductance = element_conductance<dim>(corner_points<dim>(mesh, e), *material.conductivity);
+      const CornerMatrix<dim> conductance =
+          element_conductance<dim>(corner_points<dim>(mesh, e), material.conductivity->value.constant().value());
       const double capacity = corner_capacity<dim>(mesh::element_volume(mesh, e), volumetric_heat);
       for (int i = 0; i <= dim; ++i) {
         model.capacity[nodes[i].value()] += capacity;
@@ -132,7 +139,7 @@ std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const T
                                        const Eigen::VectorXd& temperature) {
   std::vector<Point<dim>> fluxes(mesh.elements.size());
   for (const BlockId b : mesh.blocks.ids()) {
-    const double conductivity = material_of(mesh, materials, b).conductivity.value();
+    const double conductivity = material_of(mesh, materials, b).conductivity->value.constant().value();
     for (const ElementId e : mesh.blocks[b].elements) {
       CornerValues<dim> corner;
       for (int i = 0; i <= dim; ++i) corner[i] = temperature[mesh.elements[e][i].value()];

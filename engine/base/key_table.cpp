@@ -1,7 +1,5 @@
 #include "engine/base/key_table.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -32,21 +30,6 @@ std::string entry_words(const Key& key, std::string_view what) {
 }
 
 }  // namespace
-
-bool Range::holds(double value) const {
-  const bool above = low_open ? value > low : value >= low;
-  const bool below = high_open ? value < high : value <= high;
-  return above && below;
-}
-
-std::string Range::words() const {
-  const bool below = std::isfinite(high);
-  if (!std::isfinite(low)) return below ? fmt::format("{} {}", high_open ? "below" : "at most", high) : "";
-  if (!below && low == 0) return low_open ? "positive" : "not negative";
-  std::string text = fmt::format("{} {}", low_open ? "above" : "at least", low);
-  if (below) text += fmt::format(" and {} {}", high_open ? "below" : "at most", high);
-  return text;
-}
 
 std::string Condition::words() const {
   if (word.empty()) return fmt::format("{} {}", absent ? "without" : "with", key);

@@ -1,7 +1,6 @@
 // The accepted keys of an input file, declared once: checking, the printed reference and the JSON schema come from here.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/range.h"
 #include "engine/base/units.h"
 
 namespace scree {
@@ -26,20 +26,6 @@ enum class KeyType {
   text,
   path,  // of a file, relative to the input file
 };
-
-// What numbers are accepted; of a list or a map of names: how many entries.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;   // low itself is refused
-  bool high_open = false;  // high itself is refused
-
-  [[nodiscard]] bool holds(double value) const;
-  [[nodiscard]] std::string words() const;  // "positive", "at least 0 and below 1"; empty if everything is accepted
-};
-inline constexpr Range positive{.low = 0, .low_open = true};
-inline constexpr Range not_negative{.low = 0};
-inline constexpr Range at_least_one{.low = 1};
 
 // Another key is given (or not), by its pattern, with `*` and `[]` standing for the same names and items as in the key that has
 // the condition; with a word: it has this value.

@@ -126,11 +126,11 @@ UnitProblem wrong_unit(std::string_view number, std::string_view unit, const Qua
   UnitProblem problem;
   if (quantity.unit.empty()) {
     problem.reason = fmt::format("{} is no unit of a plain number", unit);
-    problem.suggestion = fmt::format("Did you mean {}?", number);
+    problem.suggestion = number.empty() ? "Leave it out" : fmt::format("Did you mean {}?", number);
     return problem;
   }
   problem.reason = known ? fmt::format("{} is no unit of {}", unit, quantity.name) : fmt::format("{} is no known unit", unit);
-  problem.suggestion = fmt::format("Did you mean {} {}?", number, likely_unit(unit, quantity));
+  problem.suggestion = fmt::format("Did you mean {}{}{}?", number, number.empty() ? "" : " ", likely_unit(unit, quantity));
   return problem;
 }
 
@@ -154,6 +154,20 @@ std::variant<double, UnitProblem> parse_quantity(std::string_view text, const Qu
   const double value = cv_convert_double(converter.get(), *number->value);
   if (!std::isfinite(value)) return UnitProblem{"too large for a number in double precision", ""};
   return value;
+}
+
+double UnitConverter::operator()(double value) const {
+  return cv_convert_double(static_cast<const cv_converter*>(converter_.get()), value);
+}
+
+std::variant<UnitConverter, UnitProblem> unit_converter(std::string_view spelling, const Quantity& quantity) {
+  spelling = trimmed(spelling);
+  const bool si = spelling.empty() || spelling == quantity.unit;
+  const Unit unit = si ? Unit{ut_get_dimensionless_unit_one(units())} : parse_unit(spelling);
+  if (!unit) return wrong_unit("", spelling, quantity, false);
+  Converter converter = si ? Converter{ut_get_converter(unit.get(), unit.get())} : converter_to(quantity, unit.get());
+  if (!converter) return wrong_unit("", spelling, quantity, true);
+  return UnitConverter(std::shared_ptr<cv_converter>(std::move(converter)));
 }
 
 }  // namespace scree

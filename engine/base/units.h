@@ -1,8 +1,10 @@
 // Quantities with units, as a user writes them: `12 h`, `3.1 W/(m K)`, `100 degC`, `5 %`. UDUNITS-2 knows the units.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 namespace scree {
@@ -45,5 +47,19 @@ struct UnitProblem {
 
 // The value of `text` in SI. Finite.
 std::variant<double, UnitProblem> parse_quantity(std::string_view text, const Quantity& quantity);
+
+// From a unit to SI.
+class UnitConverter {
+ public:
+  explicit UnitConverter(std::shared_ptr<const void> converter) : converter_(std::move(converter)) {}
+
+  double operator()(double value) const;
+
+ private:
+  std::shared_ptr<const void> converter_;  // a cv_converter of UDUNITS-2, which does not change once it is made
+};
+
+// From the unit `spelling` of the quantity; a number of an empty one is in SI already.
+std::variant<UnitConverter, UnitProblem> unit_converter(std::string_view spelling, const Quantity& quantity);
 
 }  // namespace scree

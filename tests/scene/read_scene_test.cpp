@@ -21,8 +21,8 @@ TEST(ReadScene, FillsTheStructsInSi) {
   const Scene scene = scene_of(whole_scene);
   EXPECT_EQ(scene.title, "whole");
   ASSERT_EQ(scene.materials.size(), 2u);
-  EXPECT_EQ(scene.materials[MaterialId{0}].conductivity, 3.1);
-  EXPECT_EQ(scene.materials[MaterialId{1}].conductivity, std::nullopt);
+  EXPECT_EQ(scene.materials[MaterialId{0}].conductivity->value.constant(), 3.1);
+  EXPECT_FALSE(scene.materials[MaterialId{1}].conductivity.has_value());
   ASSERT_EQ(scene.bodies.size(), 2u);
   EXPECT_EQ(scene.bodies[0].name, "plate");
   EXPECT_EQ(scene.bodies[0].mesh_size, 0.05);

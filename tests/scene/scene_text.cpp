@@ -32,6 +32,15 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "none";
 }
 
+// A function and a curve are their values at some places, times and temperatures.
+std::string text_of(const std::optional<Curve>& curve) {
+  return curve ? fmt::format("curve {} {} {}", (*curve)(1), (*curve)(300), (*curve)(777)) : "none";
+}
+std::string text_of(const std::optional<Conductivity>& k) {
+  if (!k) return "none";
+  return fmt::format("{} {} {}", text_of(std::optional(k->value)), text_of(k->ratio), text_of(k->axes));
+}
+
 std::string text_of(const mesh::Box& box) {
   return "box " + text_of(box.size);
 }

@@ -66,12 +66,7 @@ std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing) {
     hash.add_bytes(pose.translation.data(), sizeof(double) * 3);
     hash.add_bytes(pose.rotation.coeffs().data(), sizeof(double) * 4);
   }
-  for (const Material& material : scene.materials) {
-    add(hash, material.density);
-    add(hash, material.conductivity);
-    add(hash, material.specific_heat);
-  }
-  for (const char* section : {"contact", "heat", "output"}) add_section(hash, scene, section);
+  for (const char* section : {"materials", "contact", "heat", "output"}) add_section(hash, scene, section);
   return hash.hex();
 }
 

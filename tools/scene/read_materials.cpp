@@ -16,8 +16,8 @@ Table<MaterialId, Material> read_materials(const Checked& materials) {
     Material material;
     material.name = entry.name;
     material.density = optional_number(entry.value.find("density"));
-    material.conductivity = optional_number(entry.value.find("conductivity"));
-    material.specific_heat = optional_number(entry.value.find("specific_heat"));
+    if (const Checked* conductivity = entry.value.find("conductivity")) material.conductivity = conductivity->number();
+    if (const Checked* heat = entry.value.find("specific_heat")) material.specific_heat = heat->number();
     material.friction = entry.value.at("friction").number();
     material.restitution = entry.value.at("restitution").number();
     result.push_back(std::move(material));

@@ -1,0 +1,137 @@
+#include "engine/base/curve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "engine/base/expression.h"
+#include "engine/base/table_file.h"
+
+namespace scree {
+
+struct Curve::Form {
+  Form() = default;
+  virtual ~Form() = default;
+  Form(const Form&) = delete;
+  Form& operator=(const Form&) = delete;
+
+  [[nodiscard]] virtual double value(double temperature) const = 0;
+  [[nodiscard]] virtual double integral(double temperature) const = 0;
+};
+
+namespace {
+
+class Tabulated : public Curve::Form {
+ public:
+  explicit Tabulated(LinearTable table) : table_(std::move(table)) {}
+  [[nodiscard]] double value(double temperature) const override { return table_(temperature); }
+  [[nodiscard]] double integral(double temperature) const override { return table_.integral(temperature); }
+
+ private:
+  LinearTable table_;
+};
+
+class Formula : public Curve::Form {
+ public:
+  Formula(const std::string& text, UnitConverter unit, ValueRule rule)
+      : expression_(text, {"T"}), unit_(std::move(unit)), rule_(std::move(rule)), text_(text) {}
+
+  [[nodiscard]] bool varies() const { return expression_.uses("T"); }
+
+  [[nodiscard]] double value(double temperature) const override {
+    const double result = raw(temperature);
+    if (!rule_.holds(result)) refuse(result, temperature);
+    return result;
+  }
+
+  [[nodiscard]] double integral(double temperature) const override {
+    const double whole = std::clamp(std::floor(temperature), 0.0, static_cast<double>(last_kelvin));
+    const double result = sum_to(static_cast<std::size_t>(whole)) + gauss(whole, temperature);
+    if (!std::isfinite(result)) refuse(result, temperature);
+    return result;
+  }
+
+ private:
+  // Sums are kept up to here; the way from here to a higher temperature is one interval of Gauss's rule.
+  static constexpr std::size_t last_kelvin = 5000;
+
+  [[nodiscard]] double raw(double temperature) const { return unit_(expression_(std::array{temperature})); }
+
+  // Gauss-Legendre with five points (Abramowitz and Stegun, 25.4.30 and table 25.4).
+  [[nodiscard]] double gauss(double from, double to) const {
+    constexpr std::array points{0.0, 0.538469310105683091, 0.906179845938663993};
+    constexpr std::array weights{0.568888888888888889, 0.478628670499366468, 0.236926885056189088};
+    const double centre = 0.5 * (from + to);
+    const double half = 0.5 * (to - from);
+    if (half == 0) return 0;
+    double sum = weights[0] * raw(centre);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      sum += weights[i] * (raw(centre - half * points[i]) + raw(centre + half * points[i]));
+    }
+    return sum * half;
+  }
+
+  [[nodiscard]] double sum_to(std::size_t kelvin) const {
+    std::call_once(summed_, [&] {
+      sums_.reserve(last_kelvin + 1);
+      sums_.push_back(0);
+      for (std::size_t k = 0; k < last_kelvin; ++k) {
+        sums_.push_back(sums_.back() + gauss(static_cast<double>(k), static_cast<double>(k + 1)));
+      }
+    });
+    return sums_[kelvin];
+  }
+
+  [[noreturn]] void refuse(double value, double temperature) const {
+    throw InputError(rule_.problem(fmt::format("{:g} {} at {:g} K", value, rule_.quantity.unit, temperature),
+                                   "must be " + rule_.words(), fmt::format("The formula is {}", text_)));
+  }
+
+  Expression expression_;
+  UnitConverter unit_;
+  ValueRule rule_;
+  std::string text_;
+  mutable std::once_flag summed_;
+  mutable std::vector<double> sums_;  // integral from 0 K to each kelvin
+};
+
+}  // namespace
+
+Curve Curve::from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule) {
+  try {
+    const auto formula = std::make_shared<Formula>(text, unit, rule);
+    if (!formula->varies()) return formula->value(0);
+    Curve curve;
+    curve.form_ = formula;
+    return curve;
+  } catch (const ExpressionError& error) {
+    throw InputError(rule.problem(text, fmt::format("must be a formula in T; {}", error.what()), error.suggestion()));
+  }
+}
+
+Curve Curve::from_table(LinearTable table) {
+  Curve curve;
+  curve.form_ = std::make_shared<Tabulated>(std::move(table));
+  return curve;
+}
+
+Curve Curve::from_table(const std::filesystem::path& file, const ValueRule& rule) {
+  return from_table(read_table(file, {{"temperature", quantity::temperature}}, rule).values);
+}
+
+double Curve::operator()(double temperature) const {
+  return form_ ? form_->value(temperature) : constant_;
+}
+
+double Curve::integral(double temperature) const {
+  return form_ ? form_->integral(temperature) : constant_ * temperature;
+}
+
+std::optional<double> Curve::constant() const {
+  return form_ ? std::nullopt : std::optional(constant_);
+}
+
+}  // namespace scree

@@ -1,0 +1,47 @@
+// A property that depends on temperature: a number, a table or a formula.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/linear_table.h"
+#include "engine/base/units.h"
+#include "engine/base/value_rule.h"
+
+namespace scree {
+
+// Copies share what they were made from.
+class Curve {
+ public:
+  Curve() = default;                         // 0
+  Curve(double value) : constant_(value) {}  // NOLINT(google-explicit-constructor): a number is a curve, too
+
+  // In T [K]; its value is in `unit`. Throws InputError if it is no formula.
+  static Curve from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule);
+
+  // Over temperature [K], constant beyond the ends. The values are sound already.
+  static Curve from_table(LinearTable table);
+
+  // From a file whose first column is `temperature`. Throws InputError.
+  static Curve from_table(const std::filesystem::path& file, const ValueRule& rule);
+
+  // At a temperature [K]. Throws InputError that names the temperature at which a formula breaks the rule.
+  double operator()(double temperature) const;
+
+  // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, exact to rounding for
+  // polynomials to the ninth degree.
+  [[nodiscard]] double integral(double temperature) const;
+
+  [[nodiscard]] std::optional<double> constant() const;
+
+  struct Form;  // anything but a number
+
+ private:
+  double constant_ = 0;
+  std::shared_ptr<const Form> form_;
+};
+
+}  // namespace scree

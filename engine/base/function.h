@@ -1,0 +1,45 @@
+// A value that depends on place and time: a number, a formula or a table.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "engine/base/units.h"
+#include "engine/base/value_rule.h"
+
+namespace scree {
+
+// Copies share what they were made from.
+class Function {
+ public:
+  Function() = default;                         // 0
+  Function(double value) : constant_(value) {}  // NOLINT(google-explicit-constructor): a number is a function, too
+
+  // In x, y, z [m] and t [s]; its value is in `unit`. Throws InputError if it is no formula.
+  static Function from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule);
+
+  // Over time, x, y or z, as the head of the file's first column says. Throws InputError.
+  static Function from_table(const std::filesystem::path& file, ValueRule rule);
+
+  // Throws InputError that names place and time where the value breaks the rule or the table ends.
+  double operator()(const Eigen::Vector3d& place, double time) const;
+
+  [[nodiscard]] bool varies_in_time() const;
+  [[nodiscard]] bool varies_in_place() const;
+  [[nodiscard]] std::optional<double> constant() const;
+
+  // Throws InputError for a table over time that does not reach from `begin` to `end`.
+  void check_time(double begin, double end) const;
+
+  struct Form;  // anything but a number
+
+ private:
+  double constant_ = 0;
+  std::shared_ptr<const Form> form_;
+};
+
+}  // namespace scree

@@ -1,0 +1,90 @@
+#include "engine/base/curve.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "engine/base/material.h"
+
+namespace scree {
+
+namespace {
+
+Curve formula(const std::string& text, Range range = positive) {
+  ValueRule rule;
+  rule.key = "materials.ore.conductivity";
+  rule.quantity = quantity::conductivity;
+  rule.range = range;
+  return Curve::from_expression(text, std::get<UnitConverter>(unit_converter("W/m/K", quantity::conductivity)), rule);
+}
+
+// A hundred thousand midpoints.
+double midpoint_integral(const Curve& curve, double to) {
+  constexpr int count = 100000;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += curve((i + 0.5) * to / count);
+  return sum * to / count;
+}
+
+TEST(Curve, ANumberIsTheSameAtEveryTemperature) {
+  const Curve curve = 800;
+  EXPECT_EQ(curve(300), 800);
+  EXPECT_EQ(curve.integral(300), 240000);
+  EXPECT_EQ(curve.constant(), 800);
+}
+
+TEST(Curve, ATableIsLinearInBetweenAndConstantBeyond) {
+  const Curve curve = Curve::from_table(LinearTable({300, 400, 600}, {1, 3, 2}));
+  EXPECT_EQ(curve.constant(), std::nullopt);
+  EXPECT_EQ(curve(200), 1);
+  EXPECT_NEAR(curve(350), 2, 1e-14);
+  EXPECT_NEAR(curve(500), 2.5, 1e-14);
+  EXPECT_EQ(curve(700), 2);
+}
+
+TEST(Curve, TheIntegralOfATableIsExact) {
+  const Curve curve = Curve::from_table(LinearTable({300, 400, 600}, {1, 3, 2}));
+  EXPECT_EQ(curve.integral(0), 0);
+  EXPECT_NEAR(curve.integral(300), 300, 1e-12);
+  EXPECT_NEAR(curve.integral(350), 300 + 75, 1e-12);
+  EXPECT_NEAR(curve.integral(400), 300 + 200, 1e-12);
+  EXPECT_NEAR(curve.integral(600), 300 + 200 + 500, 1e-12);
+  EXPECT_NEAR(curve.integral(650), 300 + 200 + 500 + 100, 1e-12);
+  const Curve one = Curve::from_table(LinearTable({300}, {5}));
+  EXPECT_NEAR(one.integral(700), 3500, 1e-12);
+}
+
+TEST(Curve, TheIntegralOfAFormulaMatchesItsAntiderivative) {
+  const Curve cubic = formula("2 + 1e-3*T + 4e-9*T^3");
+  for (const double T : {0.0, 0.3, 273.15, 1234.5, 5000.0, 6100.0}) {
+    EXPECT_NEAR(cubic.integral(T), 2 * T + 0.5e-3 * T * T + 1e-9 * std::pow(T, 4), 1e-11 * (1 + cubic.integral(T))) << T;
+  }
+  const Curve wave = formula("3 + sin(T/20) + exp(-T/100)");
+  EXPECT_NEAR(wave.integral(431.7), midpoint_integral(wave, 431.7), 1e-5);
+}
+
+TEST(Curve, AFormulaThatBreaksItsRuleNamesTheTemperature) {
+  const Curve falling = formula("10 - 0.01*T");
+  EXPECT_NEAR(falling(900), 1, 1e-12);
+  try {
+    falling(1100);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "materials.ore.conductivity is -1 W/m/K at 1100 K (must be positive, W/m/K). The formula is 10 - 0.01*T");
+  }
+  EXPECT_THROW(formula("1 + x"), InputError) << "only T is known";
+  EXPECT_THROW(formula("1 - 2"), InputError) << "a formula of numbers is held against the rule at once";
+}
+
+TEST(Conductivity, ItsMeanIsTheMeanOverThePrincipalAxes) {
+  Conductivity wood = formula("0.1*T");
+  wood.ratio = {1, 0.5, 0.3};
+  EXPECT_FALSE(wood.isotropic());
+  EXPECT_NEAR(wood.mean(20), (2 + 1 + 0.6) / 3, 1e-14);
+  EXPECT_TRUE(Conductivity(4.0).isotropic());
+}
+
+}  // namespace
+
+}  // namespace scree
