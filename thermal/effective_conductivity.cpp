@@ -50,7 +50,7 @@ class Sample {
     double sum = 0;
     for (const ElementId e : inside_) {
       const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[e]].body].material];
-      sum += *material.conductivity * mesh::element_volume(mesh_, e);
+      sum += material.conductivity->value.constant().value() * mesh::element_volume(mesh_, e);
     }
     return sum / window_.volume();
   }

@@ -1,8 +1,10 @@
 #include "engine/base/expression.h"
 
 #include <algorithm>
+#include <cctype>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,15 +45,37 @@ std::string reason(const mu::ParserError& error) {
   return text;
 }
 
-ExpressionError explain(const mu::ParserError& error, const mu::Parser& formula, const std::vector<std::string>& variables) {
-  const int character = std::max(error.GetPos(), 0) + 1;
-  if (error.GetCode() != mu::ecUNASSIGNABLE_TOKEN) {
-    return {fmt::format("{} at its character {}", reason(error), character), ""};
+// The first name in the text that nobody knows; muParser stumbles over an unknown function only at its parenthesis.
+struct Word {
+  std::string text;
+  std::size_t begin = 0;
+};
+std::optional<Word> unknown_name(const std::string& text, const std::vector<std::string>& known) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!is_letter(text[i])) continue;
+    std::size_t end = i;
+    while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+    const bool exponent = i > 0 && is_digit(text[i - 1]);  // 1e3
+    Word word{text.substr(i, end - i), i};
+    if (!exponent && word.text.front() != '_' && std::find(known.begin(), known.end(), word.text) == known.end()) return word;
+    i = end;
   }
+  return std::nullopt;
+}
+
+ExpressionError explain(const mu::ParserError& error, const mu::Parser& formula, const std::string& text,
+                        const std::vector<std::string>& variables) {
   const std::vector<std::string> known = known_names(formula, variables);
-  return {
-      fmt::format("{} at its character {} is no known name; known are {}", error.GetToken(), character, fmt::join(known, ", ")),
-      suggest(error.GetToken(), known)};
+  if (const auto word = unknown_name(text, known)) {
+    return {fmt::format("{} at its character {} is no known name; known are {}", word->text, word->begin + 1,
+                        fmt::join(known, ", ")),
+            suggest(word->text, known)};
+  }
+  // muParser appends a blank.
+  const int character = std::clamp(error.GetPos() + 1, 1, static_cast<int>(text.size()) + 1);
+  return {fmt::format("{} at its character {}", reason(error), character), ""};
 }
 
 // muParser would take `x = 3` for an assignment.
@@ -78,7 +102,7 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     for (const auto& entry : formula.GetUsedVar()) parser_->used.push_back(entry.first);
     formula.Eval();
   } catch (const mu::ParserError& error) {
-    throw explain(error, formula, variables);
+    throw explain(error, formula, text, variables);
   }
   if (formula.GetNumResults() != 1) throw ExpressionError("it has more than one value", "Write one formula without a comma");
 }
