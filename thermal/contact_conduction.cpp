@@ -1,7 +1,5 @@
 #include "thermal/contact_conduction.h"
 
-#include "thermal/heat_model.h"
-
 namespace scree::thermal {
 
 template <int dim>
@@ -17,51 +15,49 @@ TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& c
   return difference;
 }
 
+namespace {
+
+// Outwards and unit: the nodes of a boundary face are in that order.
+template <int dim>
+Point<dim> face_normal(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes) {
+  const Point<dim> way = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
+  if constexpr (dim == 2) {
+    return Point<2>(way.y(), -way.x()).normalized();
+  } else {
+    return way.cross(mesh.nodes[nodes[2]] - mesh.nodes[nodes[0]]).normalized();
+  }
+}
+
+}  // namespace
+
+template <int dim>
+Point<dim> contact_normal(const mesh::BlockMesh<dim>& mesh, const contact::Contact<dim>& contact) {
+  const Point<dim> own = face_normal<dim>(mesh, contact.on_owner.nodes);
+  if (contact.kind != contact::Kind::overlap) return own;
+  return (own - face_normal<dim>(mesh, contact.on_target.nodes)).normalized();
+}
+
+template <int dim>
+Point<dim> conducted(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block,
+                     const Point<dim>& normal) {
+  return materials[mesh.bodies[mesh.blocks[block].body].material].conductivity.value().value.constant().value() * normal;
+}
+
 template <int dim>
 double mean_conductivity(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                          const contact::Contact<dim>& contact) {
-  const auto conductivity = [&](BlockId block) {
-    return materials[mesh.bodies[mesh.blocks[block].body].material].conductivity.value().value.constant().value();
-  };
-  return 0.5 * (conductivity(contact.owner) + conductivity(contact.target));
+  const Point<dim> normal = contact_normal(mesh, contact);
+  return 0.5 * (normal.dot(conducted<dim>(mesh, materials, contact.owner, normal)) +
+                normal.dot(conducted<dim>(mesh, materials, contact.target, normal)));
 }
 
-template <int dim>
-std::vector<double> contact_conductances(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                         const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
-  std::vector<double> conductances;
-  conductances.reserve(contacts.contacts.size());
-  for (const auto& contact : contacts.contacts) {
-    conductances.push_back(contact_conductance(contact, mean_conductivity(mesh, materials, contact), joint));
-  }
-  return conductances;
-}
-
-template <int dim>
-std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const std::vector<double>& conductances,
-                                  const Eigen::VectorXd& temperature, JointForm form) {
-  SCREE_EXPECT(conductances.size() == contacts.contacts.size());
-  std::vector<double> flows;
-  flows.reserve(conductances.size());
-  for (std::size_t c = 0; c < conductances.size(); ++c) {
-    const auto difference = temperature_difference(contacts.contacts[c], form);
-    double drop = 0;
-    for (int i = 0; i < 2 * dim; ++i) {
-      if (difference.weights[i] != 0) drop += difference.weights[i] * temperature[difference.nodes[i].value()];
-    }
-    flows.push_back(conductances[c] * drop);
-  }
-  return flows;
-}
-
-#define SCREE_INSTANTIATE(dim)                                                                                            \
-  template TemperatureDifference<dim> temperature_difference<dim>(const contact::Contact<dim>&, JointForm);               \
-  template double mean_conductivity<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                 \
-                                         const contact::Contact<dim>&);                                                   \
-  template std::vector<double> contact_conductances<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
-                                                         const contact::ContactSet<dim>&, const JointOptions&);           \
-  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const std::vector<double>&,            \
-                                                  const Eigen::VectorXd&, JointForm);
+#define SCREE_INSTANTIATE(dim)                                                                                 \
+  template TemperatureDifference<dim> temperature_difference<dim>(const contact::Contact<dim>&, JointForm);    \
+  template Point<dim> contact_normal<dim>(const mesh::BlockMesh<dim>&, const contact::Contact<dim>&);          \
+  template Point<dim> conducted<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, BlockId, \
+                                     const Point<dim>&);                                                       \
+  template double mean_conductivity<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,      \
+                                         const contact::Contact<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -4,7 +4,7 @@
 // the two sides [W/m/K], dL the characteristic length of the owner's element [m], A the contact's area [m2]. T1 and T2 are
 // weighted means of nodal temperatures, and the flow goes back to the nodes by the same weights, (12) for a point on a face and
 // (13) for two edges. So with w the owner's weights less the target's, the flow is g w.T and the contact adds g w w^T to K:
-// symmetric, rows summing to zero.
+// symmetric, rows summing to zero. Perfect joints add more: perfect_joint.h.
 //
 // Where we differ from the paper: (12) as printed takes T1 at the semi-spring's vertex, not where the semi-spring is. A
 // temperature that varies along the face then makes heat flow where none should. JointForm::literal keeps that; the default
@@ -13,7 +13,7 @@
 
 #include "contact/contact_set.h"
 #include "engine/base/material.h"
-#include "thermal/heat_options.h"
+#include "thermal/joint_options.h"
 
 namespace scree::thermal {
 
@@ -27,13 +27,36 @@ struct TemperatureDifference {
 template <int dim>
 TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form);
 
-// g = beta k_b / dL A of eq. (11) [W/K]. The one place that says how well a joint conducts.
+// What the two sides of a contact have to do with how well it conducts.
+struct ContactSides {
+  double mean_conductivity = 0;  // k_b of eq. (11) [W/m/K]
+  double penalty = 0;            // of a perfect joint, per area (perfect_joint.h) [W/m2/K]
+};
+
+// g [W/K]: beta k_b / dL A of eq. (11), or h A. The one place that says how well a joint conducts.
+// Two faces that lie on each other find each other, so the semi-springs (and semi-edges) of both sides count and each has half
+// of a conductance h; an overlap counts once and has all of it.
 template <int dim>
-double contact_conductance(const contact::Contact<dim>& contact, double mean_conductivity, const JointOptions& joint) {
-  return joint.stiffness_factor * mean_conductivity / contact.length * contact.area;
+double contact_conductance(const contact::Contact<dim>& contact, const ContactSides& sides, const JointLaw& law) {
+  if (const auto* beta = std::get_if<StiffnessFactor>(&law)) {
+    return beta->factor * sides.mean_conductivity / contact.length * contact.area;
+  }
+  if (const auto* h = std::get_if<JointConductance>(&law)) {
+    return h->conductance * contact.area * (contact.kind == contact::Kind::overlap ? 1 : 0.5);
+  }
+  return std::holds_alternative<PerfectJoint>(law) ? sides.penalty * contact.area : 0;
 }
 
-// k_b: the arithmetic mean of the two sides [W/m/K]. Both must have a conductivity.
+// From owner to target, unit: the owner's face's, or the mean of both faces' where they overlap.
+template <int dim>
+Point<dim> contact_normal(const mesh::BlockMesh<dim>& mesh, const contact::Contact<dim>& contact);
+
+// k n of a block's conductivity tensor: n . k grad T is the heat that flows against n [W/m/K].
+template <int dim>
+Point<dim> conducted(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block,
+                     const Point<dim>& normal);
+
+// k_b: the arithmetic mean of the two sides' n . k n [W/m/K]. Both must have a conductivity.
 template <int dim>
 double mean_conductivity(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                          const contact::Contact<dim>& contact);

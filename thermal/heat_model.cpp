@@ -6,7 +6,7 @@
 
 #include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
-#include "thermal/contact_conduction.h"
+#include "thermal/joint_conduction.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -90,22 +90,6 @@ void add_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Materi
   }
 }
 
-// g w w^T of every contact.
-template <int dim>
-void add_contacts(const contact::ContactSet<dim>& contacts, const std::vector<double>& conductances, JointForm form,
-                  Triplets& entries) {
-  for (std::size_t c = 0; c < conductances.size(); ++c) {
-    const auto difference = temperature_difference(contacts.contacts[c], form);
-    for (int i = 0; i < 2 * dim; ++i) {
-      for (int j = 0; j < 2 * dim; ++j) {
-        const double product = difference.weights[i] * difference.weights[j];
-        if (product == 0) continue;  // a semi-edge leaves a third of its entries unused
-        entries.emplace_back(difference.nodes[i].value(), difference.nodes[j].value(), conductances[c] * product);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 template <int dim>
@@ -128,7 +112,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   Triplets entries;
   entries.reserve(mesh.elements.size() * (dim + 1) * (dim + 1) + contacts.contacts.size() * 4 * dim * dim);
   add_blocks(mesh, materials, model, entries);
-  add_contacts(contacts, contact_conductances(mesh, materials, contacts, options.joint), options.joint.form, entries);
+  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, entries);
   model.conductance.resize(size, size);
   model.conductance.setFromTriplets(entries.begin(), entries.end());
   return model;

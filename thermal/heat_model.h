@@ -36,16 +36,6 @@ template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const HeatOptions& options);
 
-// Conductance of each contact, eq. (11) without the temperature difference [W/K].
-template <int dim>
-std::vector<double> contact_conductances(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                         const contact::ContactSet<dim>& contacts, const JointOptions& joint);
-
-// Heat flow from owner to target through each contact [W].
-template <int dim>
-std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const std::vector<double>& conductances,
-                                  const Eigen::VectorXd& temperature, JointForm form);
-
 // Heat flux of each element, eq. (4) [W/m2].
 template <int dim>
 std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,

@@ -9,6 +9,7 @@
 #include "engine/base/check.h"
 #include "engine/base/geometry.h"
 #include "engine/base/ids.h"
+#include "thermal/joint_options.h"
 
 namespace scree::thermal {
 
@@ -42,16 +43,6 @@ struct Source {
   double power = 0;  // [W/m3], in every element whose centre is in the region
   std::string name;
   SourceLocation where;
-};
-
-enum class JointForm {
-  consistent,  // both temperatures at the contact point: passes a linear field
-  literal,     // eq. (12) as printed: the owner's temperature at the vertex
-};
-
-struct JointOptions {
-  double stiffness_factor = 10;  // beta of eq. (11) [-]
-  JointForm form = JointForm::consistent;
 };
 
 enum class Integrator {

@@ -14,8 +14,9 @@ namespace {
 
 // Sums over the contacts of a pair, from which the report's means come.
 struct Sums {
-  double conductance = 0;  // [W/K]
-  double size_over_k = 0;  // sum of L/k [m2 K/W]
+  double conductance = 0;       // [W/K]
+  double unit_conductance = 0;  // what it would be at beta 1 [W/K]
+  double size_over_k = 0;       // sum of L/k [m2 K/W]
 };
 
 template <int dim>
@@ -27,6 +28,32 @@ Table<BlockId, double> block_sizes(const mesh::BlockMesh<dim>& mesh) {
     sizes[b] = std::pow(volume, 1.0 / dim);
   }
   return sizes;
+}
+
+// The conductance of a contact as a joint's: without end where nothing resists.
+template <int dim>
+double conductance_of(const contact::Contact<dim>& contact, double mean_conductivity, const JointLaw& law) {
+  if (std::holds_alternative<PerfectJoint>(law)) return std::numeric_limits<double>::infinity();
+  return contact_conductance(contact, {mean_conductivity, 0}, law);
+}
+
+template <int dim>
+void count(const contact::Contact<dim>& contact, JointReport& report) {
+  using contact::Kind;
+  ++(contact.kind == Kind::point_face  ? report.point_face
+     : contact.kind == Kind::edge_edge ? report.edge_edge
+                                       : report.overlap);
+  report.area += contact.area;
+  if (contact.kind == Kind::point_face) report.touching_area += 0.5 * contact.area;
+  if (contact.kind == Kind::overlap) report.touching_area += contact.area;
+}
+
+void finish(const Sums& sums, JointReport& report) {
+  const auto contacts = static_cast<double>(report.point_face + report.edge_edge + report.overlap);
+  report.mean_conductance = sums.conductance / report.area;
+  report.joint_conductance = report.touching_area > 0 ? sums.conductance / report.touching_area : 0;
+  report.stiffness_factor = sums.conductance / sums.unit_conductance;
+  report.biot = report.joint_conductance * sums.size_over_k / contacts;
 }
 
 }  // namespace
@@ -42,19 +69,19 @@ std::vector<JointReport> joint_reports(const mesh::BlockMesh<dim>& mesh, const T
     const auto& contact = contacts.contacts[c];
     const BodyId owner = mesh.blocks[contact.owner].body;
     const BodyId target = mesh.blocks[contact.target].body;
+    const JointLaw& law = law_between(joint, mesh.bodies, owner, target);
     auto& [report, sums] = pairs[{std::min(owner, target), std::max(owner, target)}];
     if (report.area == 0) report.least_conductance = std::numeric_limits<double>::infinity();
+    report.law = name_of(law);
     const double k = mean_conductivity(mesh, materials, contact);
-    const double conductance = contact_conductance(contact, k, joint);
-    const bool on_face = contact.kind == contact::Kind::point_face;
-    ++(on_face ? report.point_face : report.edge_edge);
-    report.area += contact.area;
-    if (on_face) report.touching_area += 0.5 * contact.area;
+    const double conductance = conductance_of(contact, k, law);
+    count(contact, report);
     report.least_conductance = std::min(report.least_conductance, conductance / contact.area);
     report.largest_conductance = std::max(report.largest_conductance, conductance / contact.area);
     if (owner != target) report.flow += owner < target ? flows[c] : -flows[c];
     report.absolute_flow += std::abs(flows[c]);
     sums.conductance += conductance;
+    sums.unit_conductance += contact_conductance(contact, {k, 0}, StiffnessFactor{1});
     sums.size_over_k += sizes[contact.owner] / k;
   }
   std::vector<JointReport> reports;
@@ -62,10 +89,7 @@ std::vector<JointReport> joint_reports(const mesh::BlockMesh<dim>& mesh, const T
     auto& [report, sums] = entry;
     report.first = bodies.first;
     report.second = bodies.second;
-    report.stiffness_factor = joint.stiffness_factor;
-    report.mean_conductance = sums.conductance / report.area;
-    report.joint_conductance = report.touching_area > 0 ? sums.conductance / report.touching_area : 0;
-    report.biot = report.joint_conductance * sums.size_over_k / static_cast<double>(report.point_face + report.edge_edge);
+    finish(sums, report);
     reports.push_back(report);
   }
   return reports;

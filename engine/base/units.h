@@ -33,6 +33,7 @@ inline constexpr Quantity density{"density", "kg/m3"};
 inline constexpr Quantity conductivity{"conductivity", "W/m/K"};
 inline constexpr Quantity specific_heat{"specific heat", "J/kg/K"};
 inline constexpr Quantity heat_flux{"heat flux", "W/m2"};
+inline constexpr Quantity heat_transfer{"heat transfer", "W/m2/K"};
 inline constexpr Quantity heat_flow{"heat flow", "W"};
 inline constexpr Quantity power_density{"power per volume", "W/m3"};
 inline constexpr Quantity temperature{"temperature", "K", Quantity::Kind::temperature};

@@ -3,6 +3,7 @@
 
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
+#include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
 namespace {
@@ -86,7 +87,7 @@ TEST_P(Contrasts, OfMaterialsGiveTheSteadyTemperatureOfResistancesInSeries) {
   HeatRun run(model, until(1e13));
   run.advance_to(1e13);
   double joint = 0;
-  for (const double g : contact_conductances(mesh, materials, contacts, options.joint)) joint += g;
+  for (const double g : joint_conduction(mesh, materials, contacts, options.joint).conductances) joint += g;
   const double flow = 100 / (0.5 / (4 * 0.1) + 1 / joint + 0.5 / (k * 0.1));
   for (const NodeId node : mesh.nodes.ids()) {
     const double x = mesh.nodes[node][0];

@@ -3,6 +3,7 @@
 
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
+#include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
 namespace {
@@ -24,7 +25,7 @@ class StiffJoints : public testing::TestWithParam<double> {};
 TEST_P(StiffJoints, KeepTheirHeatAndTheTolerance) {
   const auto mesh = rubble();
   HeatOptions options = test::options_for(mesh, 300);
-  options.joint.stiffness_factor = GetParam();
+  options.joint.law = StiffnessFactor{GetParam()};
   options.sources.push_back({{BodyId{0}, test::between_x(0, 0.02)}, 1e5, "source", {}});
   const HeatModel model = make_heat_model(mesh, test::rock_only(), test::matching_contacts(mesh), options);
   HeatRun run(model, until(600));
@@ -40,7 +41,7 @@ TEST_P(StiffJoints, CarryTheFlowOfResistancesInSeries) {
   right.low[0] = 0.5;
   const auto mesh = test::slab_mesh<2>({left, right});
   HeatOptions options = test::options_for(mesh, 300);
-  options.joint.stiffness_factor = GetParam();
+  options.joint.law = StiffnessFactor{GetParam()};
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "left"));
   options.boundaries.push_back(test::hold(BodyId{1}, 1, 300, "right"));
   const auto contacts = test::matching_contacts(mesh);
@@ -48,7 +49,7 @@ TEST_P(StiffJoints, CarryTheFlowOfResistancesInSeries) {
   HeatRun run(model, until(1e12));
   run.advance_to(1e12);
   double joint = 0;
-  for (const double g : contact_conductances(mesh, test::rock_only(), contacts, options.joint)) joint += g;
+  for (const double g : joint_conduction(mesh, test::rock_only(), contacts, options.joint).conductances) joint += g;
   const double expected = 100 / (2 * 0.5 / (4 * 0.1) + 1 / joint);
   double found = 0;
   const Eigen::VectorXd leaving = model.conductance * run.state().temperature;

@@ -13,7 +13,7 @@ HeatModel hot_left_end(double beta) {
   slab.block_per_element = true;
   const auto mesh = test::slab_mesh<2>({slab});
   HeatOptions options = test::options_for(mesh, 300);
-  options.joint.stiffness_factor = beta;
+  options.joint.law = StiffnessFactor{beta};
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "left"));
   return make_heat_model(mesh, test::rock_only(), test::matching_contacts(mesh), options);
 }

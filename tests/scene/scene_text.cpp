@@ -89,6 +89,17 @@ std::string text_of(const rigid::SettleOptions& o) {
                      o.rest_unbalanced_force, o.rest_window, o.frame_interval);
 }
 
+std::string text_of(const thermal::JointLaw& law) {
+  double value = 0;
+  if (const auto* beta = std::get_if<thermal::StiffnessFactor>(&law)) value = beta->factor;
+  if (const auto* h = std::get_if<thermal::JointConductance>(&law)) value = h->conductance;
+  return fmt::format("{} {}", thermal::name_of(law), value);
+}
+
+std::string text_of(const std::optional<contact::Model>& model) {
+  return model ? fmt::format("{}", static_cast<int>(*model)) : "none";
+}
+
 std::string text_of(const thermal::HeatOptions& heat) {
   std::string text = "initial";
   for (const double value : heat.initial_temperature) text += fmt::format(" {}", value);
@@ -97,7 +108,14 @@ std::string text_of(const thermal::HeatOptions& heat) {
                         std::visit([](const auto& c) { return text_of(c); }, b.condition));
   }
   for (const auto& s : heat.sources) text += fmt::format("\nsource {} {} {}", s.name, text_of(s.region), s.power);
-  text += fmt::format("\njoint {} {}", heat.joint.stiffness_factor, static_cast<int>(heat.joint.form));
+  text +=
+      fmt::format("\njoint {} {} {}", text_of(heat.joint.law), text_of(heat.joint.model), static_cast<int>(heat.joint.form));
+  for (const auto& rule : heat.joint.rules) {
+    const bool bodies = rule.between.index() == 0;
+    const auto pair =
+        std::visit([](const auto& ids) { return fmt::format("{} {}", ids[0].value(), ids[1].value()); }, rule.between);
+    text += fmt::format("\nrule {} {} {} {}", bodies, pair, text_of(rule.law), text_of(rule.model));
+  }
   const thermal::TimeOptions& time = heat.time;
   return text + fmt::format("\ntime {} {} {} {} {}", time.until, time.tolerance, time.output_every,
                             static_cast<int>(time.integrator), text_of(time.step));

@@ -22,7 +22,7 @@ HeatModel rubble_model(double beta, const std::function<void(HeatOptions&)>& hea
   slab.block_per_element = true;
   const auto mesh = slab_mesh<dim>({slab});
   HeatOptions options = options_for(mesh, 298.15);
-  options.joint.stiffness_factor = beta;
+  options.joint.law = StiffnessFactor{beta};
   heat(options);
   return make_heat_model(mesh, rock_only(), test::matching_contacts(mesh), options);
 }
@@ -114,7 +114,7 @@ TEST(HeatRun, AnInsulatedPileKeepsItsHeat) {
   for (const double beta : {0.1, 1e3}) {
     HeatOptions options = options_for(mesh, 300);
     options.initial_temperature[BodyId{1}] = 400;
-    options.joint.stiffness_factor = beta;
+    options.joint.law = StiffnessFactor{beta};
     const HeatModel model = make_heat_model(mesh, rock_only(), test::matching_contacts(mesh), options);
     HeatRun run(model, times(1000, 100, 0.1));
     run.advance_to(1000);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/thermal/builders.h"
+#include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
 namespace {
@@ -36,10 +37,11 @@ JointedRock<dim> jointed_rock(int count, double stiffness) {
   rock.mesh = test::slab_mesh<dim>(cubes);
   rock.contacts = test::matching_contacts(rock.mesh);
   HeatOptions options = test::options_for(rock.mesh, 300);
-  options.joint.stiffness_factor = stiffness;
+  options.joint.law = StiffnessFactor{stiffness};
   rock.model = make_heat_model(rock.mesh, test::rock_only(), rock.contacts, options);
   double conductance = 0;
-  for (const double g : contact_conductances(rock.mesh, test::rock_only(), rock.contacts, options.joint)) conductance += g;
+  for (const double g : joint_conduction(rock.mesh, test::rock_only(), rock.contacts, options.joint).conductances)
+    conductance += g;
   double area = dim * (count - 1) * std::pow(count * edge, dim - 1);
   rock.joint = conductance / area;
   return rock;

@@ -40,7 +40,7 @@ template <int dim>
 Steady steady(const contact::ContactSet<dim>& contacts, double beta) {
   const auto mesh = two_slabs<dim>();
   HeatOptions options = test::options_for(mesh, 300);
-  options.joint.stiffness_factor = beta;
+  options.joint.law = StiffnessFactor{beta};
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "hot end"));
   options.boundaries.push_back(test::hold(BodyId{1}, 0.3, 300, "cold end"));
   const HeatModel model = make_heat_model(mesh, two_materials(), contacts, options);
@@ -49,9 +49,9 @@ Steady steady(const contact::ContactSet<dim>& contacts, double beta) {
   HeatRun run(model, times);
   run.advance_to(1e9);
   const Eigen::VectorXd& temperature = run.state().temperature;
-  const auto conductances = contact_conductances(mesh, two_materials(), contacts, options.joint);
+  const auto conduction = joint_conduction(mesh, two_materials(), contacts, options.joint);
   double joint = 0;
-  for (const double g : conductances) joint += g;
+  for (const double g : conduction.conductances) joint += g;
   Steady result;
   const double side = dim == 2 ? 0.1 : 0.01;
   result.series = 100 / (0.1 / (4 * side) + 1 / joint + 0.2 / (10 * side));
@@ -61,7 +61,7 @@ Steady steady(const contact::ContactSet<dim>& contacts, double beta) {
     if (std::abs(mesh.nodes[node][0] - 0.1) > 1e-9) continue;
     (model.blocks[node] == BlockId{0} ? result.left_of_joint : result.right_of_joint) = temperature[node.value()];
   }
-  const auto flows = contact_flows(contacts, conductances, temperature, options.joint.form);
+  const auto flows = contact_flows(contacts, conduction, temperature, options.joint.form);
   result.joints = joint_reports(mesh, two_materials(), contacts, options.joint, flows);
   return result;
 }

@@ -48,6 +48,13 @@ mesh::BlockMesh<2> ring(Breaking breaking) {
   return mesh;
 }
 
+JointOptions stiff(double beta, JointForm form) {
+  JointOptions joint;
+  joint.law = StiffnessFactor{beta};
+  joint.form = form;
+  return joint;
+}
+
 // Steady heat flow over the exact one.
 double relative_flow(const mesh::BlockMesh<2>& mesh, const JointOptions& joint) {
   Material material = test::rock();
@@ -90,9 +97,9 @@ TEST(Ring, AContinuumConductsAsTheExactSolution) {
 TEST(Ring, ConsistentJointsBecomeAContinuumAsBetaGrows) {
   const auto mesh = ring(Breaking::per_element);
   const double continuum = relative_flow(ring(Breaking::whole), {});
-  const double flow10 = relative_flow(mesh, {10, JointForm::consistent});
-  const double flow100 = relative_flow(mesh, {100, JointForm::consistent});
-  const double flow1000 = relative_flow(mesh, {1000, JointForm::consistent});
+  const double flow10 = relative_flow(mesh, stiff(10, JointForm::consistent));
+  const double flow100 = relative_flow(mesh, stiff(100, JointForm::consistent));
+  const double flow1000 = relative_flow(mesh, stiff(1000, JointForm::consistent));
   EXPECT_NEAR(flow1000, continuum, 0.001);
   EXPECT_NEAR(flow100, continuum, 0.01);
   EXPECT_NEAR((1 / flow10 - 1 / continuum) / (1 / flow100 - 1 / continuum), 10, 0.5);
@@ -101,8 +108,8 @@ TEST(Ring, ConsistentJointsBecomeAContinuumAsBetaGrows) {
 
 TEST(Ring, LiteralJointsConductTooMuchAsBetaGrows) {
   const auto mesh = ring(Breaking::per_element);
-  EXPECT_GT(relative_flow(mesh, {100, JointForm::literal}), 1.3);
-  EXPECT_GT(relative_flow(mesh, {1000, JointForm::literal}), 3);
+  EXPECT_GT(relative_flow(mesh, stiff(100, JointForm::literal)), 1.3);
+  EXPECT_GT(relative_flow(mesh, stiff(1000, JointForm::literal)), 3);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ HeatModel two_halves(double beta) {
   const auto mesh = test::slab_mesh<2>({cold, warm});
   HeatOptions options = test::options_for(mesh, 300);
   options.initial_temperature[BodyId{1}] = 400;
-  options.joint.stiffness_factor = beta;
+  options.joint.law = StiffnessFactor{beta};
   return make_heat_model(mesh, test::rock_only(), test::matching_contacts(mesh), options);
 }
 

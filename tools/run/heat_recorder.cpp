@@ -39,7 +39,7 @@ void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   const auto flux = thermal::element_fluxes(pile_.mesh, scene_.materials, state.temperature);
   series_.write(grid_, heat_frame<dim>(state.time, identity_, state.temperature, flux));
   const auto form = scene_.heat->joint.form;
-  auto flows = thermal::contact_flows(pile_.contacts, pile_.conductances, state.temperature, form);
+  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, form);
   contact_series_.write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
   if (table_) {
     std::vector<double> values;

@@ -9,6 +9,7 @@
 #include "engine/output/probes.h"
 #include "engine/output/series.h"
 #include "thermal/heat_run.h"
+#include "thermal/joint_conduction.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/scene.h"
 
@@ -19,7 +20,7 @@ template <int dim>
 struct HeatedPile {
   mesh::BlockMesh<dim> mesh;  // as placed
   contact::ContactSet<dim> contacts;
-  std::vector<double> conductances;  // of the contacts [W/K]
+  thermal::JointConduction<dim> joints;
   std::vector<output::Probe<dim>> probes;
   std::string key;  // of the heat stage
 };

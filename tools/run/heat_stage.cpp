@@ -14,6 +14,14 @@ namespace scree::run {
 namespace {
 
 template <int dim>
+contact::ContactSet<dim> find_joints(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
+  const thermal::JointOptions& joint = scene.heat->joint;
+  auto contacts = contact::find_contacts(mesh, thermal::contact_search(joint, mesh.bodies, *scene.contact));
+  thermal::check_rules(joint, mesh, contacts);
+  return contacts;
+}
+
+template <int dim>
 HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& packing) {
   const Scene& scene = context.scene;
   HeatedPile<dim> pile;
@@ -21,8 +29,8 @@ HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& pack
   pile.probes = output::locate_probes(pile.mesh, scene.probes);
   pile.key = heat_key(scene, packing);
   pile.contacts = context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()),
-                                [&] { return contact::find_contacts(pile.mesh, *scene.contact); });
-  pile.conductances = thermal::contact_conductances(pile.mesh, scene.materials, pile.contacts, scene.heat->joint);
+                                [&] { return find_joints(scene, pile.mesh); });
+  pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, scene.heat->joint);
   return pile;
 }
 

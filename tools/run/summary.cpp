@@ -57,16 +57,22 @@ template <int dim>
 Json joints_json(const HeatOutcome<dim>& outcome, const Scene& scene) {
   const auto& pile = outcome.pile;
   const thermal::JointOptions& joint = scene.heat->joint;
-  const auto flows = thermal::contact_flows(pile.contacts, pile.conductances, outcome.state.temperature, joint.form);
+  const auto flows = thermal::contact_flows(pile.contacts, pile.joints, outcome.state.temperature, joint.form);
+  const auto areas = contact::overlap_areas(pile.mesh, scene.contact->tolerance);
   Json joints = Json::array();
   for (const auto& report : thermal::joint_reports(pile.mesh, scene.materials, pile.contacts, joint, flows)) {
+    const auto area = areas.find({report.first, report.second});
+    const double overlap_area = area == areas.end() ? 0 : area->second;
     joints.push_back({{"first", pile.mesh.bodies[report.first].name},
                       {"second", pile.mesh.bodies[report.second].name},
+                      {"law", report.law},
                       {"point_face", report.point_face},
                       {"edge_edge", report.edge_edge},
+                      {"overlap", report.overlap},
                       {"stiffness_factor", report.stiffness_factor},
                       {"area", report.area},
                       {"touching_area", report.touching_area},
+                      {"overlap_area", overlap_area},
                       {"least_conductance", report.least_conductance},
                       {"mean_conductance", report.mean_conductance},
                       {"largest_conductance", report.largest_conductance},
@@ -137,6 +143,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
   const auto& contacts = outcome.pile.contacts;
   summary["contacts"] = {{"point_face", contacts.count(contact::Kind::point_face)},
                          {"edge_edge", contacts.count(contact::Kind::edge_edge)},
+                         {"overlap", contacts.count(contact::Kind::overlap)},
                          {"semi_springs", contacts.semi_springs},
                          {"semi_edges", contacts.semi_edges}};
   summary["joints"] = joints_json(outcome, scene);

@@ -26,6 +26,17 @@ Model motion(const Scene& scene) {
                   free_bodies(scene), scene.bodies.size(), g.x(), g.y(), g.z(), scene.settle->options.limit)};
 }
 
+// The law of the joints, and how many pairs have another.
+std::string words_of(const thermal::JointOptions& joint) {
+  std::string text = "joints are " + thermal::name_of(joint.law);
+  if (const auto* beta = std::get_if<thermal::StiffnessFactor>(&joint.law)) {
+    text = fmt::format("joints of stiffness factor {:g}", beta->factor);
+  } else if (const auto* h = std::get_if<thermal::JointConductance>(&joint.law)) {
+    text = fmt::format("joints of {:g} W/m2/K", h->conductance);
+  }
+  return joint.rules.empty() ? text : text + fmt::format(", and contact.joints has {}", joint.rules.size());
+}
+
 std::vector<Model> heat_models(const Scene& scene) {
   const std::string absent = "the scene has no heat section";
   if (!scene.heat) return {{"conduction in blocks", false, absent}, {"heat through contacts", false, absent}};
@@ -34,9 +45,7 @@ std::vector<Model> heat_models(const Scene& scene) {
   std::vector<Model> models{
       {"conduction in blocks", true,
        fmt::format("the scene has a heat section: {:g} s in {} steps", heat.time.until, euler ? "explicit" : "implicit")},
-      {"heat through contacts", true,
-       fmt::format("heat passes between blocks that touch: semi-springs of stiffness factor {:g}",
-                   heat.joint.stiffness_factor)}};
+      {"heat through contacts", true, fmt::format("heat passes between blocks that touch: {}", words_of(heat.joint))}};
   const std::size_t boundaries = heat.boundaries.size();
   models.push_back({"boundaries", boundaries > 0,
                     boundaries > 0 ? fmt::format("heat.boundaries has {}", boundaries) : "all surfaces are insulated"});
@@ -108,7 +117,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }
   if (scene.settle || !scene.heat) return report;
-  append(sentences, isolated_blocks(mesh, *scene.contact));
+  append(sentences, isolated_blocks(mesh, *scene.contact, scene.heat->joint));
   append(sentences, probes_in_voids(mesh, scene.probes));
   return report;
 }

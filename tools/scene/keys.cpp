@@ -220,11 +220,12 @@ Keys settle_keys() {
 Keys contact_keys() {
   const contact::ContactOptions by_default;
   const Condition heat{"heat"};
+  constexpr Range two{.low = 2, .high = 2};
   return {
       row("contact", section, "How heat passes between blocks.").fallback("{}").only({heat}),
-      row("contact.model", word, "Semi-springs and semi-edges of Li and Feng (2016).")
-          .words({"semi_spring"})
-          .fallback("semi_spring"),
+      row("contact.model", word, "Semi-springs of Li and Feng (2016), or the exact overlap of two faces.")
+          .words({"semi_spring", "overlap"})
+          .otherwise("semi_spring with a stiffness factor, overlap with a conductance"),
       row("contact.indentation", quantity, "Way of a semi-spring from its vertex to the centre of its face.", q::number,
           Range{.low = 0, .high = 1, .low_open = true, .high_open = true})
           .fallback(fmt::format("{}", by_default.indentation)),
@@ -233,7 +234,35 @@ Keys contact_keys() {
           .fallback(fmt::format("{}", by_default.tolerance)),
       row("contact.stiffness_factor", quantity, "Factor beta of a contact's conductance, beta k/dL per area.", q::number,
           not_negative)
-          .fallback(fmt::format("{}", thermal::JointOptions{}.stiffness_factor)),
+          .fallback(fmt::format("{}", thermal::StiffnessFactor{}.factor))
+          .only({Condition{.key = "contact.conductance", .absent = true}, Condition{.key = "contact.perfect", .absent = true},
+                 Condition{.key = "contact.insulating", .absent = true}}),
+      row("contact.conductance", quantity, "Of every joint, whatever the mesh.", q::heat_transfer, not_negative).choice("law"),
+      row("contact.perfect", word, "Blocks are tied where they lie on each other: no joint resists.")
+          .words({"true"})
+          .choice("law"),
+      row("contact.insulating", word, "No heat passes between blocks.").words({"true"}).choice("law"),
+      row("contact.joints", KeyType::list, "Joints that differ; the last that speaks of two bodies holds.").fallback("[]"),
+      row("contact.joints[]", section, "The joints between two bodies, or between all bodies of two materials."),
+      row("contact.joints[].bodies", KeyType::list, "Two bodies; one twice for the joints within it.")
+          .range(two)
+          .required()
+          .choice("pair"),
+      row("contact.joints[].bodies[]", name, "One of them.").required(),
+      row("contact.joints[].materials", KeyType::list, "Two materials; one twice for the joints within it.")
+          .range(two)
+          .required()
+          .choice("pair"),
+      row("contact.joints[].materials[]", name, "One of them.").required(),
+      row("contact.joints[].model", word, "As contact.model, for these joints.")
+          .words({"semi_spring", "overlap"})
+          .otherwise("as contact.model"),
+      row("contact.joints[].stiffness_factor", quantity, "Factor beta.", q::number, not_negative).required().choice("law"),
+      row("contact.joints[].conductance", quantity, "Whatever the mesh.", q::heat_transfer, not_negative)
+          .required()
+          .choice("law"),
+      row("contact.joints[].perfect", word, "Tied where they lie on each other.").words({"true"}).required().choice("law"),
+      row("contact.joints[].insulating", word, "No heat passes.").words({"true"}).required().choice("law"),
       row("contact.form", word, "Temperatures at the contact point on both sides, or as printed: at the owner's vertex.")
           .words({"consistent", "literal"})
           .fallback("consistent"),

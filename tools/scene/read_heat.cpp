@@ -106,13 +106,6 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
 
 }  // namespace
 
-contact::ContactOptions read_contact(const Checked& contact) {
-  contact::ContactOptions options;
-  options.indentation = contact.at("indentation").number();
-  options.tolerance = contact.at("tolerance").number();
-  return options;
-}
-
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems) {
   const Checked* window = heat.find("effective_conductivity");
   if (window == nullptr) return std::nullopt;
@@ -122,7 +115,6 @@ std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension,
 
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
   const Checked& heat = scene.at("heat");
-  const Checked& contact = scene.at("contact");
   const int dimension = scene.at("dimension").text == "2" ? 2 : 3;
   Names names{names_of(scene.at("bodies")), {}};
 
@@ -134,9 +126,7 @@ thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
   for (const Checked& part : heat.at("sources").items) {
     options.sources.push_back(read_source(part, names, dimension, problems));
   }
-  options.joint.stiffness_factor = contact.at("stiffness_factor").number();
-  const bool literal = contact.at("form").text == "literal";
-  options.joint.form = literal ? thermal::JointForm::literal : thermal::JointForm::consistent;
+  options.joint = read_joint(scene, problems);
   options.time = read_time(heat, scene.at("output"));
   return options;
 }

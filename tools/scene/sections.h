@@ -17,6 +17,7 @@ Table<MaterialId, Material> read_materials(const Checked& materials);
 std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Problems& problems);
 SettleStage read_settle(const Checked& settle, Problems& problems);
 contact::ContactOptions read_contact(const Checked& contact);
+thermal::JointOptions read_joint(const Checked& scene, Problems& problems);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section);

@@ -28,7 +28,8 @@ Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d&
 
 // Blocks that no heat can reach through a contact.
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options);
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
+                          const thermal::JointOptions& joint);
 
 // Probes that no block holds.
 template <int dim>

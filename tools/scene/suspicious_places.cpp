@@ -131,10 +131,14 @@ Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d&
 }
 
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options) {
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
+                          const thermal::JointOptions& joint) {
   if (mesh.blocks.size() < 2) return {};
   Table<BlockId, bool> touched(mesh.blocks.size(), false);
-  for (const auto& contact : contact::find_contacts(mesh, options).contacts) {
+  const auto search = thermal::contact_search(joint, mesh.bodies, options);
+  for (const auto& contact : contact::find_contacts(mesh, search).contacts) {
+    const BodyId owner = mesh.blocks[contact.owner].body, target = mesh.blocks[contact.target].body;
+    if (std::holds_alternative<thermal::InsulatingJoint>(thermal::law_between(joint, mesh.bodies, owner, target))) continue;
     touched[contact.owner] = true;
     touched[contact.target] = true;
   }
@@ -152,7 +156,7 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::Conta
   }
   return sentences;
 }
-template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactOptions&);
-template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactOptions&);
+template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactOptions&, const thermal::JointOptions&);
+template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactOptions&, const thermal::JointOptions&);
 
 }  // namespace scree

@@ -1,0 +1,189 @@
+// Patch tests: a linear temperature over blocks whose meshes do not match.
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "contact/find_contacts.h"
+#include "tests/thermal/builders.h"
+#include "tests/verification/steady.h"
+#include "thermal/joint_conduction.h"
+
+namespace scree::thermal {
+namespace {
+
+template <class Dim>
+class Patch : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Patch, Dimensions);
+
+JointOptions joint_of(const JointLaw& law, std::optional<contact::Model> model = {}) {
+  JointOptions joint;
+  joint.law = law;
+  joint.model = model;
+  return joint;
+}
+
+// Boxes beside and on each other, meshed 2, 3 and 4 cells across: an L of three interfaces of which none matches, meeting in a
+// line.
+template <int dim>
+mesh::BlockMesh<dim> three_boxes(bool block_per_element) {
+  std::vector<test::Slab<dim>> boxes(3);
+  for (int i = 0; i < 3; ++i) {
+    boxes[i].cells.fill(2 + i);
+    boxes[i].block_per_element = block_per_element;
+  }
+  boxes[1].low[0] = 1;
+  boxes[2].low[dim - 1] = 1;
+  boxes[2].size[0] = 2;
+  return test::slab_mesh<dim>(boxes);
+}
+
+template <int dim>
+double linear(const Point<dim>& point) {
+  return 300 + 7 * point[0] - 5 * point[1] + 3 * point[dim - 1];
+}
+
+template <int dim>
+test::Held held_around(const mesh::BlockMesh<dim>& mesh) {
+  Point<dim> high = Point<dim>::Constant(1);
+  high[0] = high[dim - 1] = 2;
+  test::Held held;
+  for (const NodeId node : mesh.nodes.ids()) {
+    const Point<dim>& point = mesh.nodes[node];
+    if (((point.array() < 1e-9) || (point.array() > high.array() - 1e-9)).any()) held[node] = linear<dim>(point);
+  }
+  return held;
+}
+
+template <int dim>
+double largest_error(const mesh::BlockMesh<dim>& mesh, const JointOptions& joint) {
+  const auto contacts = contact::find_contacts(mesh, contact_search(joint, mesh.bodies, {}));
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint = joint;
+  const HeatModel model = make_heat_model(mesh, test::rock_only(), contacts, options);
+  const Eigen::VectorXd temperature = test::steady(model.conductance, held_around<dim>(mesh));
+  double largest = 0;
+  for (const NodeId node : mesh.nodes.ids()) {
+    largest = std::max(largest, std::abs(temperature[node.value()] - linear<dim>(mesh.nodes[node])));
+  }
+  return largest;
+}
+
+TYPED_TEST(Patch, PerfectJointsPassALinearFieldOverNonMatchingMeshes) {
+  constexpr int dim = TypeParam::value;
+  EXPECT_LT(largest_error<dim>(three_boxes<dim>(false), joint_of(PerfectJoint{})), 1e-10);
+}
+
+TYPED_TEST(Patch, PerfectJointsPassALinearFieldWhereManyBlocksMeetInPoints) {
+  constexpr int dim = TypeParam::value;
+  EXPECT_LT(largest_error<dim>(three_boxes<dim>(true), joint_of(PerfectJoint{})), 1e-10);
+}
+
+// A joint that resists cannot pass a field without a jump; with a conductance the error falls as 1/h, whatever the mesh.
+TYPED_TEST(Patch, OverlapsOfAConductanceConvergeToTheLinearField) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = three_boxes<dim>(false);
+  const double error6 = largest_error<dim>(mesh, joint_of(JointConductance{1e6}));
+  EXPECT_NEAR(error6 / largest_error<dim>(mesh, joint_of(JointConductance{1e7})), 10, 1);
+}
+
+// What semi-springs give on the same meshes: their points and areas do not integrate the interface, so a stiff joint does not
+// converge to the linear field.
+TYPED_TEST(Patch, SemiSpringsDoNotPassALinearFieldHoweverStiff) {
+  constexpr int dim = TypeParam::value;
+  const double error = largest_error<dim>(three_boxes<dim>(false), joint_of(StiffnessFactor{1e6}));
+  EXPECT_GT(error, 1e-3);
+  this->RecordProperty("error_in_kelvin", std::to_string(error));
+}
+
+// Two conductivities a thousandfold apart, seen across the joint: flux and temperature are continuous.
+TYPED_TEST(Patch, PerfectJointsPassAFluxBetweenUnlikeMaterials) {
+  constexpr int dim = TypeParam::value;
+  std::vector<test::Slab<dim>> boxes(2);
+  boxes[0].cells.fill(2);
+  boxes[1].cells.fill(3);
+  boxes[1].low[0] = 1;
+  boxes[1].material = MaterialId{1};
+  const auto mesh = test::slab_mesh<dim>(boxes);
+  Table<MaterialId, Material> materials = test::rock_only();
+  materials.push_back(test::rock());
+  materials[MaterialId{1}].conductivity = 4000;
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint = joint_of(PerfectJoint{});
+  const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+  const HeatModel model = make_heat_model(mesh, materials, contacts, options);
+  test::Held held;
+  for (const NodeId node : mesh.nodes.ids()) {
+    if (mesh.nodes[node][0] < 1e-9) held[node] = 400;
+    if (mesh.nodes[node][0] > 2 - 1e-9) held[node] = 300;
+  }
+  const Eigen::VectorXd temperature = test::steady(model.conductance, held);
+  const double flux = 100 / (1 / 4.0 + 1 / 4000.0);
+  for (const NodeId node : mesh.nodes.ids()) {
+    const double x = mesh.nodes[node][0];
+    const double expected = model.blocks[node] == BlockId{0} ? 400 - flux * x / 4 : 300 + flux * (2 - x) / 4000;
+    EXPECT_NEAR(temperature[node.value()], expected, 1e-9);
+  }
+  double flow = 0;
+  for (const double part : contact_flows(contacts, joint_conduction(mesh, materials, contacts, options.joint), temperature,
+                                         JointForm::consistent)) {
+    flow += part;
+  }
+  EXPECT_NEAR(flow / flux, 1, 1e-10);
+}
+
+TYPED_TEST(Patch, PerfectJointsAreSymmetricPositiveSemidefiniteWithTheConstantsAsKernel) {
+  constexpr int dim = TypeParam::value;
+  auto mesh = three_boxes<dim>(true);
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint = joint_of(PerfectJoint{});
+  const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+  mesh.bodies[BodyId{1}].material = MaterialId{1};
+  Table<MaterialId, Material> materials = test::rock_only();
+  materials.push_back(test::rock());
+  materials[MaterialId{1}].conductivity = 400;
+  const HeatModel model = make_heat_model(mesh, materials, contacts, options);
+  const SparseMatrix transposed = model.conductance.transpose();
+  EXPECT_EQ((model.conductance - transposed).norm(), 0);
+  const double scale = model.conductance.coeffs().abs().maxCoeff();
+  const Eigen::VectorXd sums = model.conductance * Eigen::VectorXd::Ones(model.conductance.cols());
+  EXPECT_LT(sums.cwiseAbs().maxCoeff(), 1e-13 * scale);
+  // With one node held K must be definite: steady() refuses it otherwise.
+  EXPECT_NO_THROW((void)test::steady(model.conductance, {{NodeId{0}, 1.0}}));
+  if constexpr (dim == 2) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(model.conductance), Eigen::EigenvaluesOnly);
+    EXPECT_NEAR(eigen.eigenvalues()[0], 0, 1e-12 * scale);
+    EXPECT_GT(eigen.eigenvalues()[1], 1e-5 * scale);
+  }
+}
+
+// Heat that a joint's contacts carry is what they take from one block and give to the other.
+TYPED_TEST(Patch, FlowsOfPerfectJointsAreWhatTheyAddToTheBalance) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = three_boxes<dim>(false);
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint = joint_of(PerfectJoint{});
+  const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+  const HeatModel with = make_heat_model(mesh, test::rock_only(), contacts, options);
+  const HeatModel without = make_heat_model(mesh, test::rock_only(), {}, options);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(300, 400);
+  const Eigen::VectorXd temperature = Eigen::VectorXd::NullaryExpr(with.initial.size(), [&]() { return unit(random); });
+  const Eigen::VectorXd lost = (with.conductance - without.conductance) * temperature;
+  std::vector<double> by_block(mesh.blocks.size(), 0);
+  const auto flows = contact_flows(contacts, joint_conduction(mesh, test::rock_only(), contacts, options.joint), temperature,
+                                   JointForm::consistent);
+  for (std::size_t c = 0; c < flows.size(); ++c) {
+    by_block[contacts.contacts[c].owner.index()] += flows[c];
+    by_block[contacts.contacts[c].target.index()] -= flows[c];
+  }
+  for (const BlockId block : mesh.blocks.ids()) {
+    double sum = 0;
+    for (const NodeId node : mesh.blocks[block].nodes) sum += lost[node.value()];
+    EXPECT_NEAR(sum, by_block[block.index()], 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace scree::thermal

@@ -1,0 +1,131 @@
+#include "thermal/joint_conduction.h"
+
+#include "thermal/contact_conduction.h"
+
+namespace scree::thermal {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// g w w^T.
+template <int dim>
+void add_contact(const TemperatureDifference<dim>& difference, double conductance, Triplets& entries) {
+  for (int i = 0; i < 2 * dim; ++i) {
+    for (int j = 0; j < 2 * dim; ++j) {
+      const double product = difference.weights[i] * difference.weights[j];
+      if (product == 0) continue;  // a semi-edge leaves a third of its entries unused
+      entries.emplace_back(difference.nodes[i].value(), difference.nodes[j].value(), conductance * product);
+    }
+  }
+}
+
+// The points of one overlap share their elements, and so their rows of K: they are summed before they are entered.
+template <int dim>
+class PerfectSum {
+ public:
+  static constexpr int corners = PerfectTerm<dim>::corners;
+  using Matrix = Eigen::Matrix<double, corners, corners>;
+
+  explicit PerfectSum(Triplets& entries) : entries_(entries) {}
+
+  void add(const PerfectTerm<dim>& term, double conductance) {
+    if (term.nodes != nodes_) flush();
+    nodes_ = term.nodes;
+    const Eigen::Map<const Eigen::Matrix<double, corners, 1>> jump(term.jump.data()), flux(term.flux.data());
+    sum_ += conductance * jump * jump.transpose() - jump * flux.transpose() - flux * jump.transpose();
+  }
+
+  // Diagonals are minus the sum of the others, so that rows sum to zero to the last bit of what is entered.
+  void flush() {
+    for (int i = 0; i < corners; ++i) {
+      for (int j = 0; j < i; ++j) {
+        if (sum_(i, j) == 0) continue;
+        const int row = nodes_[i].value(), column = nodes_[j].value();
+        entries_.emplace_back(row, column, sum_(i, j));
+        entries_.emplace_back(column, row, sum_(i, j));
+        entries_.emplace_back(row, row, -sum_(i, j));
+        entries_.emplace_back(column, column, -sum_(i, j));
+      }
+    }
+    sum_.setZero();
+  }
+
+ private:
+  Triplets& entries_;
+  std::array<NodeId, corners> nodes_;
+  Matrix sum_ = Matrix::Zero();
+};
+
+}  // namespace
+
+template <int dim>
+JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                      const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
+  JointConduction<dim> conduction;
+  conduction.perfect = perfect_terms(mesh, materials, contacts, joint);
+  conduction.conductances.reserve(contacts.contacts.size());
+  auto perfect = conduction.perfect.begin();
+  for (const auto& contact : contacts.contacts) {
+    ContactSides sides;
+    sides.mean_conductivity = mean_conductivity(mesh, materials, contact);
+    const bool has_term = perfect != conduction.perfect.end() && perfect->contact == conduction.conductances.size();
+    if (has_term) sides.penalty = (perfect++)->penalty;
+    const JointLaw& law = law_between(joint, mesh.bodies, mesh.blocks[contact.owner].body, mesh.blocks[contact.target].body);
+    conduction.conductances.push_back(contact_conductance(contact, sides, law));
+  }
+  return conduction;
+}
+
+template <int dim>
+void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+                Triplets& entries) {
+  SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
+  auto perfect = conduction.perfect.begin();
+  PerfectSum<dim> sum(entries);
+  for (std::size_t c = 0; c < conduction.conductances.size(); ++c) {
+    const double conductance = conduction.conductances[c];
+    if (perfect != conduction.perfect.end() && perfect->contact == c) {
+      sum.add(*perfect++, conductance);
+    } else if (conductance > 0) {
+      add_contact(temperature_difference(contacts.contacts[c], form), conductance, entries);
+    }
+  }
+  sum.flush();
+}
+
+template <int dim>
+std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction,
+                                  const Eigen::VectorXd& temperature, JointForm form) {
+  SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
+  std::vector<double> flows;
+  flows.reserve(contacts.contacts.size());
+  for (const double conductance : conduction.conductances) {
+    const auto difference = temperature_difference(contacts.contacts[flows.size()], form);
+    double drop = 0;
+    for (int i = 0; i < 2 * dim; ++i) {
+      if (difference.weights[i] != 0) drop += difference.weights[i] * temperature[difference.nodes[i].value()];
+    }
+    flows.push_back(conductance * drop);
+  }
+  for (const PerfectTerm<dim>& term : conduction.perfect) {
+    // As differences within each side: the fluxes of a side sum to zero only to rounding, and temperatures in kelvin are large.
+    for (int i = 0; i < term.corners; ++i) {
+      const int first = i <= dim ? 0 : dim + 1;
+      flows[term.contact] -= term.flux[i] * (temperature[term.nodes[i].value()] - temperature[term.nodes[first].value()]);
+    }
+  }
+  return flows;
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                                         \
+  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
+                                                      const contact::ContactSet<dim>&, const JointOptions&);           \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, Triplets&);   \
+  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,        \
+                                                  const Eigen::VectorXd&, JointForm);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
+
+}  // namespace scree::thermal

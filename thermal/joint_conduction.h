@@ -1,0 +1,33 @@
+// All contacts of a pile together: what they add to K, and the heat that flows through each.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "thermal/perfect_joint.h"
+
+namespace scree::thermal {
+
+template <int dim>
+struct JointConduction {
+  std::vector<double> conductances;       // g of each contact [W/K]
+  std::vector<PerfectTerm<dim>> perfect;  // empty unless a joint is perfect
+};
+
+template <int dim>
+JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                      const contact::ContactSet<dim>& contacts, const JointOptions& joint);
+
+// The entries of K.
+template <int dim>
+void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+                std::vector<Eigen::Triplet<double>>& entries);
+
+// Heat flow from owner to target through each contact [W].
+template <int dim>
+std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction,
+                                  const Eigen::VectorXd& temperature, JointForm form);
+
+}  // namespace scree::thermal

@@ -1,0 +1,43 @@
+// Perfect joints of meshes that do not match: no knob, and a linear field passes exactly.
+//
+// Nitsche's coupling, as in symmetric interior-penalty methods. On an overlap, with [T] = T1 - T2 and n from side 1 to side 2,
+// the joint's energy is
+//   integral of  gamma [T]^2 - 2 [T] q,    q = w1 n.k1 grad T1 + w2 n.k2 grad T2,    w1 + w2 = 1,
+// so heat gamma [T] - q flows from 1 to 2 per area: the flux of both sides' mean and, against the jump, a penalty.
+//
+// The penalty follows from a bound, not from a user. On a linear simplex grad T is constant, so that over the overlaps of an
+// element, of area S in all, integral (n.k grad T)^2 <= c * (the element's energy), c = S (n.k n)/V; with equality for one flat
+// side (the trace inequality of Warburton and Hesthaven, Comput. Methods Appl. Mech. Eng. 192, 2003, at order 0; for interior
+// penalties K. Shahbazi, J. Comput. Phys. 205, 2005). Then
+//   w1 = c2/(c1 + c2),   w2 = c1/(c1 + c2),   gamma = 2 c1 c2/(c1 + c2)
+// leave at least half of every block's own energy, and K is positive semidefinite with the constants as its kernel. The weights
+// are those that need the least penalty (Annavarapu, Hautefeuille and Dolbow, Comput. Methods Appl. Mech. Eng. 225-228, 2012);
+// they stay good when the two sides differ a thousandfold.
+#pragma once
+
+#include <vector>
+
+#include "contact/contact_set.h"
+#include "engine/base/material.h"
+#include "thermal/joint_options.h"
+
+namespace scree::thermal {
+
+// What a quadrature point of a perfect joint adds to a contact's g w w^T: the mean flux q times the point's area is
+// sum of flux times temperatures [W], and K loses w q^T + q w^T.
+template <int dim>
+struct PerfectTerm {
+  static constexpr int corners = 2 * (dim + 1);
+  std::size_t contact = 0;             // in the set
+  double penalty = 0;                  // gamma [W/m2/K]
+  std::array<NodeId, corners> nodes;   // the owner's element's, then the target's
+  std::array<double, corners> jump{};  // w: T1 - T2
+  std::array<double, corners> flux{};  // [W/K]
+};
+
+// One for each contact of a perfect joint, in the order of the set.
+template <int dim>
+std::vector<PerfectTerm<dim>> perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                            const contact::ContactSet<dim>& contacts, const JointOptions& joint);
+
+}  // namespace scree::thermal
