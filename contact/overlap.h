@@ -12,8 +12,9 @@
 
 namespace scree::contact {
 
-// Faces that lean more than this from lying on each other have no overlap: they touch in an edge or a corner.
-inline constexpr double least_opposed = 0.866;  // cosine of 30 degrees
+// Faces that lean more than this from lying on each other have no overlap: they touch in an edge or a corner, or look at each
+// other through the tip of a block between them.
+inline constexpr double least_opposed = 0.985;  // cosine of 10 degrees
 
 template <int dim>
 struct FacePair {

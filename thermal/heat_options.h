@@ -18,7 +18,7 @@ struct Region {
   BodyId body;
   // [m]; includes its faces, with a billionth of the mesh's extent for rounding; 2-D ignores z.
   std::optional<Aabb<3>> within;
-  std::optional<std::string> surface;  // of the body, by its name; boundaries only
+  std::optional<std::string> surface{};  // of the body, by its name; boundaries only
 };
 
 struct FixedTemperature {

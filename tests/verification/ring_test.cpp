@@ -1,12 +1,13 @@
 // The ring of Li & Feng (2016), section 2.2: radii 2 m and 5 m, 960 triangles, each its own block; 5760 semi-springs. Inner rim
 // at 100 C, outer at 0 C. Exact steady flow per metre of thickness: 2 pi k dT / ln(5/2).
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
 #include "contact/find_contacts.h"
 #include "tests/thermal/builders.h"
-#include "thermal/heat_run.h"
+#include "tests/verification/steady.h"
 
 namespace scree::thermal {
 namespace {
@@ -55,34 +56,48 @@ JointOptions stiff(double beta, JointForm form) {
   return joint;
 }
 
-// Steady heat flow over the exact one.
-double relative_flow(const mesh::BlockMesh<2>& mesh, const JointOptions& joint) {
+struct Solution {
+  double flow = 0;                                                    // over the exact one
+  std::map<std::pair<long, long>, std::vector<double>> temperatures;  // [C], of all nodes at a place, by its coordinates in um
+};
+
+Solution solve(const mesh::BlockMesh<2>& mesh, const JointOptions& joint) {
   Material material = test::rock();
   material.conductivity = 4.2;
   const Table<MaterialId, Material> materials({material});
-  const contact::ContactSet<2> contacts = contact::find_contacts<2>(mesh, {});
+  const auto contacts = contact::find_contacts(mesh, contact_search(joint, mesh.bodies, {}));
   HeatOptions options = test::options_for(mesh, 300);
   options.joint = joint;
-  HeatModel model = make_heat_model(mesh, materials, contacts, options);
-  // The rims are no boxes: hold their nodes by hand.
-  model.boundary_names = {"inner rim", "outer rim"};
-  std::vector<double> held;
+  const HeatModel model = make_heat_model(mesh, materials, contacts, options);
+  test::Held held;
   for (const NodeId node : mesh.nodes.ids()) {
     const double radius = mesh.nodes[node].norm();
-    if (radius > 2.001 && radius < 4.999) continue;
-    model.fixed_nodes.push_back(node);
-    model.fixed_boundary.push_back(radius < 3 ? 0 : 1);
-    held.push_back(radius < 3 ? 400 : 300);
+    if (radius < 2.001) held[node] = 100;
+    if (radius > 4.999) held[node] = 0;
   }
-  model.fixed_temperature = Eigen::Map<const Eigen::VectorXd>(held.data(), static_cast<Eigen::Index>(held.size()));
-  TimeOptions times;
-  times.until = 1e12;
-  HeatRun run(model, times);
-  run.advance_to(1e12);
-  const Eigen::VectorXd leaving = model.conductance * run.state().temperature;
-  double flow = 0;
-  for (std::size_t i = 0; i < held.size(); ++i) flow += held[i] > 350 ? leaving[model.fixed_nodes[i].value()] : 0;
-  return flow / (2 * M_PI * 4.2 * 100 / std::log(2.5));
+  const Eigen::VectorXd temperature = test::steady(model.conductance, held);
+  const Eigen::VectorXd leaving = model.conductance * temperature;
+  Solution solution;
+  for (const NodeId node : mesh.nodes.ids()) {
+    const Point<2> place = mesh.nodes[node] * 1e6;
+    solution.temperatures[{std::lround(place.x()), std::lround(place.y())}].push_back(temperature[node.value()]);
+    if (mesh.nodes[node].norm() < 2.001) solution.flow += leaving[node.value()];
+  }
+  solution.flow /= 2 * M_PI * 4.2 * 100 / std::log(2.5);
+  return solution;
+}
+
+double relative_flow(const mesh::BlockMesh<2>& mesh, const JointOptions& joint) {
+  return solve(mesh, joint).flow;
+}
+
+// Largest difference of any block's node from the whole ring's node in its place [K].
+double largest_difference(const Solution& broken, const Solution& whole) {
+  double largest = 0;
+  for (const auto& [place, values] : broken.temperatures) {
+    for (const double value : values) largest = std::max(largest, std::abs(value - whole.temperatures.at(place).front()));
+  }
+  return largest;
 }
 
 TEST(Ring, HasAsManySemiSpringsAsThePaper) {
@@ -97,6 +112,10 @@ TEST(Ring, AContinuumConductsAsTheExactSolution) {
 TEST(Ring, ConsistentJointsBecomeAContinuumAsBetaGrows) {
   const auto mesh = ring(Breaking::per_element);
   const double continuum = relative_flow(ring(Breaking::whole), {});
+  const double flow01 = relative_flow(mesh, stiff(0.1, JointForm::consistent));
+  const double flow1 = relative_flow(mesh, stiff(1, JointForm::consistent));
+  EXPECT_NEAR(flow01, 0.1313, 1e-4);
+  EXPECT_NEAR((1 / flow01 - 1 / continuum) / (1 / flow1 - 1 / continuum), 10, 1);
   const double flow10 = relative_flow(mesh, stiff(10, JointForm::consistent));
   const double flow100 = relative_flow(mesh, stiff(100, JointForm::consistent));
   const double flow1000 = relative_flow(mesh, stiff(1000, JointForm::consistent));
@@ -104,6 +123,33 @@ TEST(Ring, ConsistentJointsBecomeAContinuumAsBetaGrows) {
   EXPECT_NEAR(flow100, continuum, 0.01);
   EXPECT_NEAR((1 / flow10 - 1 / continuum) / (1 / flow100 - 1 / continuum), 10, 0.5);
   EXPECT_NEAR((1 / flow100 - 1 / continuum) / (1 / flow1000 - 1 / continuum), 10, 0.5);
+}
+
+TEST(Ring, ConsistentJointsOfBetaHundredAreTheContinuumWithinAFifthOfAKelvinAndAHundredthOfTheFlow) {
+  const auto mesh = ring(Breaking::per_element);
+  const Solution whole = solve(ring(Breaking::whole), {});
+  const Solution broken = solve(mesh, stiff(100, JointForm::consistent));
+  EXPECT_LT(largest_difference(broken, whole), 0.2);
+  EXPECT_NEAR(broken.flow / whole.flow, 1, 0.01);
+}
+
+// Every triangle its own block and still one ring: the joints add no knob and no resistance.
+TEST(Ring, PerfectJointsAreTheContinuum) {
+  const Solution whole = solve(ring(Breaking::whole), {});
+  JointOptions joint;
+  joint.law = PerfectJoint{};
+  const Solution broken = solve(ring(Breaking::per_element), joint);
+  EXPECT_LT(largest_difference(broken, whole), 0.15);
+  EXPECT_NEAR(broken.flow / whole.flow, 1, 0.001);
+}
+
+// Each joint stands for the semi-springs of both its sides, which here lie face to face.
+TEST(Ring, OverlapsConductAsSemiSpringsOfTheSameBeta) {
+  const auto mesh = ring(Breaking::per_element);
+  JointOptions joint = stiff(1, JointForm::consistent);
+  const double semi_springs = relative_flow(mesh, joint);
+  joint.model = contact::Model::overlap;
+  EXPECT_NEAR(relative_flow(mesh, joint) / semi_springs, 1, 0.01);
 }
 
 TEST(Ring, LiteralJointsConductTooMuchAsBetaGrows) {
