@@ -49,7 +49,7 @@ TEST_P(BadElements, PassALinearTemperature) {
 TEST_P(BadElements, KeepTheHeatOfAnInsulatedBody) {
   const auto mesh = squeezed_cube(GetParam());
   HeatOptions options = test::options_for(mesh, 300);
-  options.sources.push_back({{BodyId{0}, test::between_x(0, 0.3)}, 1e4, "source", {}});
+  options.sources.push_back({test::on(BodyId{0}, test::between_x(0, 0.3)), 1e4, "source", {}});
   const HeatModel model = make_heat_model(mesh, test::rock_only(), contact::ContactSet<3>{}, options);
   HeatRun run(model, until(3600));
   run.advance_to(3600);

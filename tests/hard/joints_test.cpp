@@ -26,7 +26,7 @@ TEST_P(StiffJoints, KeepTheirHeatAndTheTolerance) {
   const auto mesh = rubble();
   HeatOptions options = test::options_for(mesh, 300);
   options.joint.law = StiffnessFactor{GetParam()};
-  options.sources.push_back({{BodyId{0}, test::between_x(0, 0.02)}, 1e5, "source", {}});
+  options.sources.push_back({test::on(BodyId{0}, test::between_x(0, 0.02)), 1e5, "source", {}});
   const HeatModel model = make_heat_model(mesh, test::rock_only(), test::matching_contacts(mesh), options);
   HeatRun run(model, until(600));
   run.advance_to(600);

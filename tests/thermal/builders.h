@@ -201,8 +201,20 @@ inline Aabb<3> between_x(double low, double high) {
   return {Eigen::Vector3d(low, -1e9, -1e9), Eigen::Vector3d(high, 1e9, 1e9)};
 }
 
+inline Region on(BodyId body, const std::optional<Aabb<3>>& within = {}, const std::optional<std::string>& surface = {}) {
+  Region region;
+  region.body = body;
+  region.within = within;
+  region.surface = surface;
+  return region;
+}
+
 inline Boundary hold(BodyId body, double x, double temperature, const std::string& name) {
-  return {{body, between_x(x, x)}, FixedTemperature{temperature}, name, {}};
+  Boundary boundary;
+  boundary.region = on(body, between_x(x, x));
+  boundary.condition = FixedTemperature{temperature};
+  boundary.name = name;
+  return boundary;
 }
 
 }  // namespace scree::thermal::test

@@ -146,9 +146,9 @@ TYPED_TEST(HeatModels, BoundaryHeatAddsUpToWhatWasAsked) {
   const auto mesh = slab_mesh<dim>({bar<dim>(2.0, 4, 3, 0.5)});
   const double side = dim == 2 ? 0.5 : 0.25;
   HeatOptions options = options_for(mesh, 300);
-  options.boundaries.push_back({{BodyId{0}, between_x(0, 0)}, HeatFlux{120}, "flux", {}});
-  options.boundaries.push_back({{BodyId{0}, between_x(2, 2)}, HeatFlow{-7}, "flow", {}});
-  options.sources.push_back({{BodyId{0}, between_x(0, 1)}, 1000, "source", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, between_x(0, 0)), HeatFlux{120}, "flux", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, between_x(2, 2)), HeatFlow{-7}, "flow", {}});
+  options.sources.push_back({test::on(BodyId{0}, between_x(0, 1)), 1000, "source", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
   ASSERT_EQ(model.applied_flows.size(), 3U);
   EXPECT_NEAR(model.applied_flows[0].second, 120 * side, 1e-10);
@@ -168,7 +168,7 @@ TYPED_TEST(HeatModels, FixedTemperaturesHoldTheNodesInTheirRegionOnly) {
   const auto mesh = slab_mesh<dim>({bar<dim>(1.0, 2, 1, 0.5), right});
   HeatOptions options = options_for(mesh, 300);
   options.boundaries.push_back(test::hold(BodyId{1}, 1.0, 400, "left end of the right slab"));
-  options.boundaries.push_back({{BodyId{0}, std::nullopt}, FixedTemperature{350}, "all of the left slab", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, std::nullopt), FixedTemperature{350}, "all of the left slab", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
   EXPECT_EQ(model.fixed_nodes.size(), mesh.blocks[BlockId{0}].nodes.size() + (dim == 2 ? 2 : 4));
   EXPECT_TRUE(std::is_sorted(model.fixed_nodes.begin(), model.fixed_nodes.end()));
@@ -191,9 +191,9 @@ std::string message_of(const std::function<void()>& act) {
 TEST(HeatModelErrors, ARegionThatHoldsNothingSaysWhereTheBodyIs) {
   const auto mesh = slab_mesh<2>({bar<2>(2.0, 4, 3, 0.5)});
   HeatOptions options = options_for(mesh, 300);
-  options.boundaries.push_back({{BodyId{0}, between_x(3, 4)}, FixedTemperature{400}, "warm", {"a.yaml", 7, 3}});
-  options.boundaries.push_back({{BodyId{0}, between_x(0.1, 0.4)}, HeatFlux{1}, "flux", {}});
-  options.sources.push_back({{BodyId{0}, between_x(-2, -1)}, 1, "source", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, between_x(3, 4)), FixedTemperature{400}, "warm", {"a.yaml", 7, 3}});
+  options.boundaries.push_back({test::on(BodyId{0}, between_x(0.1, 0.4)), HeatFlux{1}, "flux", {}});
+  options.sources.push_back({test::on(BodyId{0}, between_x(-2, -1)), 1, "source", {}});
   const std::string message = message_of([&] { make_heat_model(mesh, rock_only(), {}, options); });
   EXPECT_THAT(message,
               HasSubstr("a.yaml:7:3: heat.boundaries: warm is body body0 within (3, -1e+09) to (4, 1e+09) m (must hold at "
@@ -223,9 +223,9 @@ TYPED_TEST(HeatModels, ASurfaceTakesTheHeatOfTheRegionThatHoldsItsFaces) {
   const auto mesh = named_bar<dim>();
   HeatOptions by_surface = options_for(mesh, 300), by_region = options_for(mesh, 300);
   for (HeatOptions* options : {&by_surface, &by_region}) {
-    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, HeatFlux{12}, "flux", {}});
-    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, HeatFlow{-5}, "flow", {}});
-    options->boundaries.push_back({{BodyId{0}, between_x(0, 0)}, FixedTemperature{400}, "held", {}});
+    options->boundaries.push_back({test::on(BodyId{0}, between_x(0, 0)), HeatFlux{12}, "flux", {}});
+    options->boundaries.push_back({test::on(BodyId{0}, between_x(0, 0)), HeatFlow{-5}, "flow", {}});
+    options->boundaries.push_back({test::on(BodyId{0}, between_x(0, 0)), FixedTemperature{400}, "held", {}});
   }
   for (Boundary& boundary : by_surface.boundaries) {
     boundary.region.within.reset();
@@ -242,9 +242,9 @@ TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
   constexpr int dim = TypeParam::value;
   const auto mesh = named_bar<dim>();
   HeatOptions options = options_for(mesh, 300);
-  const Aabb<3> lower({-1, -1, -1}, {3, 0.25, 1});
-  options.boundaries.push_back({{BodyId{0}, lower, "left"}, HeatFlux{1}, "flux", {}});
-  options.boundaries.push_back({{BodyId{0}, lower, "left"}, FixedTemperature{400}, "held", {}});
+  const Aabb<3> lower(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(3, 0.25, 1));
+  options.boundaries.push_back({test::on(BodyId{0}, lower, "left"), HeatFlux{1}, "flux", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, lower, "left"), FixedTemperature{400}, "held", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
   EXPECT_NEAR(model.load.sum(), dim == 2 ? 0.25 : 0.125, 1e-13);
   EXPECT_EQ(model.fixed_nodes.size(), dim == 2 ? 2u : 6u);
@@ -253,8 +253,8 @@ TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
 TEST(HeatModelErrors, AnUnknownSurfaceIsAnsweredWithThoseThatThereAre) {
   const auto mesh = named_bar<3>();
   HeatOptions options = options_for(mesh, 300);
-  options.boundaries.push_back({{BodyId{0}, std::nullopt, "top"}, HeatFlux{1}, "flux", {"a.yaml", 7, 3}});
-  options.boundaries.push_back({{BodyId{0}, std::nullopt, "right"}, FixedTemperature{1}, "held", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, std::nullopt, "top"), HeatFlux{1}, "flux", {"a.yaml", 7, 3}});
+  options.boundaries.push_back({test::on(BodyId{0}, std::nullopt, "right"), FixedTemperature{1}, "held", {}});
   const std::string message = message_of([&] { make_heat_model(mesh, rock_only(), {}, options); });
   EXPECT_THAT(message, HasSubstr("a.yaml:7:3: heat.boundaries: flux: surface is top (must be a surface of body body0). Body "
                                  "body0 has left, right"));
@@ -265,7 +265,7 @@ TEST(HeatModelErrors, TwoTemperaturesForOneNodeAreRefused) {
   const auto mesh = slab_mesh<2>({bar<2>(2.0, 4, 3, 0.5)});
   HeatOptions options = options_for(mesh, 300);
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "left"));
-  options.boundaries.push_back({{BodyId{0}, between_x(0, 1)}, FixedTemperature{300}, "half", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, between_x(0, 1)), FixedTemperature{300}, "half", {}});
   const std::string message = message_of([&] { make_heat_model(mesh, rock_only(), {}, options); });
   EXPECT_THAT(message, HasSubstr("heat.boundaries: half is 300 K (\"left\" holds the node at (0, 0) m at 400 K)"));
 }

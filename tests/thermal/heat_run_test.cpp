@@ -31,7 +31,7 @@ void hot_left(HeatOptions& options) {
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 373.15, "left"));
 }
 void inner_source(HeatOptions& options) {
-  options.sources.push_back({{BodyId{0}, between_x(0, 0.03)}, 1e6, "source", {}});
+  options.sources.push_back({test::on(BodyId{0}, between_x(0, 0.03)), 1e6, "source", {}});
 }
 void both(HeatOptions& options) {
   hot_left(options);
@@ -163,7 +163,7 @@ TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
   mesh.elements.push_back({NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}});
   mesh.blocks.push_back({BodyId{0}, {0, 4}, {0, 1}});
   HeatOptions options = options_for(mesh, 300);
-  options.sources.push_back({{BodyId{0}, std::nullopt}, 2e6, "source", {}});
+  options.sources.push_back({test::on(BodyId{0}, std::nullopt), 2e6, "source", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
   HeatRun run(model, times(7, 3, 0.1));
   run.advance_to(7);
@@ -216,7 +216,7 @@ TEST(HeatRun, NothingHappensAtASteadyState) {
 
 TEST(HeatRun, AModelWithEveryNodeFixedStandsStill) {
   const HeatModel model = rubble_model<2>(10, [](HeatOptions& options) {
-    options.boundaries.push_back({{BodyId{0}, std::nullopt}, FixedTemperature{350}, "all", {}});
+    options.boundaries.push_back({test::on(BodyId{0}, std::nullopt), FixedTemperature{350}, "all", {}});
   });
   HeatRun run(model, times(100, 10, 0.1));
   run.advance_to(100);

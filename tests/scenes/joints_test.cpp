@@ -1,0 +1,80 @@
+// The scenes about joints: scenes/ring, scenes/four_blocks, and scenes/bars_and_joint with other laws.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/scenes/scene_run.h"
+
+namespace scree::test {
+namespace {
+
+constexpr double celsius = 273.15;
+const std::vector<std::string> perfect{"contact.stiffness_factor=null", "contact.perfect=true"};
+
+SceneRun sound_run(const std::string& scene, const std::string& directory, const std::vector<std::string>& overrides = {}) {
+  SceneRun made = test::run(scene, fresh_directory(directory), overrides);
+  EXPECT_EQ(made.exit_status, 0) << made.summary.dump(2);
+  EXPECT_LT(made.summary["heat"]["ledger_residual"], 1e-8);
+  return made;
+}
+
+TEST(RingOfTriangles, HeatsAsTheSolidRingAtAnyTime) {
+  const auto whole = sound_run("ring", "ring_whole", {"bodies.ring.blocks=whole"}).probes().at("middle");
+  const SceneRun jointed = sound_run("ring", "ring_100");
+  EXPECT_EQ(jointed.summary["blocks"], 960);
+  EXPECT_EQ(jointed.summary["contacts"]["semi_springs"], 5760);
+  const auto stiff = jointed.probes().at("middle");
+  const auto tied = sound_run("ring", "ring_perfect", perfect).probes().at("middle");
+  ASSERT_EQ(whole.size(), stiff.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_NEAR(stiff[i], whole[i], 0.2) << i;
+    EXPECT_NEAR(tied[i], whole[i], 0.2) << i;
+  }
+  const double exact = 100 * std::log(5 / 3.97) / std::log(2.5);
+  EXPECT_NEAR(stiff.back() - celsius, exact, 0.3);
+  EXPECT_NEAR(tied.back() - celsius, exact, 0.3);
+}
+
+TEST(FourBlocks, AgreeWhateverTheModelOfTheirJoints) {
+  const auto springs = sound_run("four_blocks", "four_springs").probes();
+  const SceneRun run = sound_run("four_blocks", "four_overlap", {"contact.model=overlap"});
+  const auto overlaps = run.probes();
+  for (const char* probe : {"in_A", "in_B", "in_C", "in_D"}) {
+    EXPECT_NEAR(springs.at(probe).back(), overlaps.at(probe).back(), 1.0) << probe;
+    EXPECT_GT(springs.at(probe).back(), celsius + 5) << probe;
+  }
+  for (const auto& joint : run.summary["joints"]) {
+    EXPECT_NEAR(joint["overlap_area"], 1, 1e-12) << joint.dump();
+    EXPECT_NEAR(joint["touching_area"], 1, 1e-12) << joint.dump();
+  }
+}
+
+// Two slabs and a joint of 50 W/m2/K: 100 K over 2 x 0.2 m / 3.1 W/m/K + 1/h, through 0.05 m x 0.05 m.
+TEST(BarsOfAConductance, CarryTheClosedForm) {
+  const std::vector<std::string> conductance{"contact.stiffness_factor=null", "contact.conductance=50"};
+  const SceneRun run = sound_run("bars_and_joint", "bars_conductance", conductance);
+  const double expected = 100 / (0.4 / 3.1 + 1 / 50.0) * 0.0025;
+  const auto& joint = run.summary["joints"][0];
+  EXPECT_EQ(joint["law"], "conductance");
+  EXPECT_NEAR(joint["joint_conductance"], 50, 1e-9);
+  EXPECT_NEAR(joint["flow"].get<double>() / expected, 1, 2e-3);
+}
+
+TEST(BarsOfAConductance, RefuseAJointThatCarriesNothing) {
+  const auto refused = [](const std::string& name, const std::string& joints) {
+    const SceneRun run = test::run("bars_and_joint", fresh_directory(name), {"contact.joints=" + joints});
+    return std::pair{run.exit_status, run.summary.dump()};
+  };
+  const auto [within, message] = refused("bars_within", "[{bodies: [left, left], conductance: 5}]");
+  EXPECT_EQ(within, 2);
+  EXPECT_NE(message.find("contact.joints[0]"), std::string::npos) << message;
+  const auto overruled =
+      refused("bars_overruled", "[{bodies: [left, right], conductance: 5}, {materials: [rock, rock], insulating: true}]");
+  EXPECT_EQ(overruled.first, 2);
+  const auto kept = refused("bars_kept", "[{materials: [rock, rock], insulating: true}]");
+  EXPECT_EQ(kept.first, 0);
+}
+
+}  // namespace
+}  // namespace scree::test
