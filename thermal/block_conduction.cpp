@@ -13,9 +13,9 @@ double dim_times_volume(const Corners<dim>& points, const Corners<dim>& areas) {
 }  // namespace
 
 template <int dim>
-Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, ElementId element) {
+Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes) {
   Corners<dim> points;
-  for (int a = 0; a <= dim; ++a) points.col(a) = mesh.nodes[mesh.elements[element][a]];
+  for (int a = 0; a <= dim; ++a) points.col(a) = mesh.nodes[nodes[a]];
   return points;
 }
 
@@ -67,8 +67,8 @@ CornerMatrix<dim> element_conductance(const Corners<dim>& points, double conduct
   return conductance;
 }
 
-template Corners<2> corner_points<2>(const mesh::BlockMesh<2>&, ElementId);
-template Corners<3> corner_points<3>(const mesh::BlockMesh<3>&, ElementId);
+template Corners<2> corner_points<2>(const mesh::BlockMesh<2>&, const std::array<NodeId, 3>&);
+template Corners<3> corner_points<3>(const mesh::BlockMesh<3>&, const std::array<NodeId, 4>&);
 template Point<2> element_flux<2>(const Corners<2>&, double, const CornerValues<2>&);
 template Point<3> element_flux<3>(const Corners<3>&, double, const CornerValues<3>&);
 template CornerMatrix<2> element_conductance<2>(const Corners<2>&, double);

@@ -1,4 +1,5 @@
-// Conduction and storage inside one simplex (Li & Feng 2016, section 1.2): the home of eqs. (4), (5) and (7).
+// Conduction and storage inside one simplex, which cells with more corners are made of (engine/mesh/cells.h) (Li & Feng 2016,
+// section 1.2): the home of eqs. (4), (5) and (7).
 //
 // Eq. (4): q = -(k/V) sum_f Tbar_f S_f, the element's flux from the mean temperatures Tbar_f of its faces, S_f = n dS their
 // outward area vectors. Eq. (5): a node receives sum_f q . S_f / N_f over the element's faces that contain it, N_f = dim nodes
@@ -25,7 +26,7 @@ template <int dim>
 using CornerMatrix = Eigen::Matrix<double, dim + 1, dim + 1>;
 
 template <int dim>
-Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, ElementId element);  // [m]
+Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes);  // [m]
 
 // Outward area vectors S_a of the faces opposite to each corner [m2] (2-D: times unit thickness).
 template <int dim>

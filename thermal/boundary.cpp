@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/mesh/cells.h"
 #include "engine/mesh/surfaces.h"
 #include "thermal/problems.h"
 
@@ -24,7 +25,7 @@ template <int dim>
 class Applier {
  public:
   Applier(const mesh::BlockMesh<dim>& mesh, HeatModel& model)
-      : mesh_(mesh), model_(model), faces_(mesh::boundary_faces(mesh)), blocks_of_(mesh.bodies.size()) {
+      : mesh_(mesh), model_(model), faces_(mesh::weighted_faces(mesh)), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
     Aabb<dim> extent;
     for (const Point<dim>& point : mesh.nodes) extent.extend(point);
@@ -47,15 +48,15 @@ class Applier {
     double total = 0;
     bool found = false;
     for (const BlockId b : blocks_of_[source.region.body]) {
-      for (const ElementId e : mesh_.blocks[b].elements) {
+      mesh::for_each_simplex(mesh_, mesh_.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
         Point<dim> centre = Point<dim>::Zero();
-        for (const NodeId node : mesh_.elements[e]) centre += mesh_.nodes[node] / (dim + 1);
-        if (!inside(source.region, centre)) continue;
-        const double share = source.power * mesh::element_volume(mesh_, e) / (dim + 1);
-        for (const NodeId node : mesh_.elements[e]) model_.load[node.value()] += share;
+        for (const NodeId node : nodes) centre += mesh_.nodes[node] / (dim + 1);
+        if (!inside(source.region, centre)) return;
+        const double share = weight * source.power * mesh::simplex_volume<dim>(mesh_, nodes) / (dim + 1);
+        for (const NodeId node : nodes) model_.load[node.value()] += share;
         total += share * (dim + 1);
         found = true;
-      }
+      });
     }
     if (!found) nothing_there(source.where, "heat.sources", source.name, source.region, "at least one element's centre");
     model_.applied_flows.emplace_back(source.name, total);
@@ -137,7 +138,7 @@ class Applier {
       bool in = !surface || mesh::on_surface<dim>(mesh_, faces_[f].nodes, *surface);
       for (const NodeId node : faces_[f].nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
       if (!in) continue;
-      heated.emplace_back(f, mesh::face_area(mesh_, faces_[f]));
+      heated.emplace_back(f, faces_[f].weight * mesh::face_area<dim>(mesh_, faces_[f]));
       area += heated.back().second;
     }
     if (heated.empty()) {
@@ -175,7 +176,7 @@ class Applier {
 
   const mesh::BlockMesh<dim>& mesh_;
   HeatModel& model_;
-  Table<FaceId, mesh::Face<dim>> faces_;
+  Table<FaceId, mesh::WeightedFace<dim>> faces_;
   Table<BodyId, std::vector<BlockId>> blocks_of_;
   double rounding_ = 0;  // [m]
   std::map<NodeId, Hold> held_;

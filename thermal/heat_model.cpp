@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/mesh/cells.h"
 #include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
 #include "thermal/joint_conduction.h"
@@ -70,24 +71,45 @@ void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mate
   missing.raise();
 }
 
-// Eqs. (4), (5) and (7) of every element.
+// Eqs. (4), (5) and (7) of every simplex, by its weight.
 template <int dim>
 void add_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model,
                 Triplets& entries) {
   for (const BlockId b : mesh.blocks.ids()) {
     const Material& material = material_of(mesh, materials, b);
     const double volumetric_heat = *material.density * material.specific_heat->constant().value();
-    for (const ElementId e : mesh.blocks[b].elements) {
-      const auto& nodes = mesh.elements[e];
+    mesh::for_each_simplex(mesh, mesh.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
       const CornerMatrix<dim> conductance =
-          element_conductance<dim>(corner_points<dim>(mesh, e), material.conductivity->value.constant().value());
-      const double capacity = corner_capacity<dim>(mesh::element_volume(mesh, e), volumetric_heat);
+          weight * element_conductance<dim>(corner_points<dim>(mesh, nodes), material.conductivity->value.constant().value());
+      const double capacity = weight * corner_capacity<dim>(mesh::simplex_volume<dim>(mesh, nodes), volumetric_heat);
       for (int i = 0; i <= dim; ++i) {
         model.capacity[nodes[i].value()] += capacity;
         for (int j = 0; j <= dim; ++j) entries.emplace_back(nodes[i].value(), nodes[j].value(), conductance(i, j));
       }
-    }
+    });
   }
+}
+
+template <int dim>
+Point<dim> simplex_flux(const mesh::BlockMesh<dim>& mesh, const Material& material, const mesh::Simplex<dim>& nodes,
+                        const Eigen::VectorXd& temperature) {
+  CornerValues<dim> corner;
+  for (int i = 0; i <= dim; ++i) corner[i] = temperature[nodes[i].value()];
+  return element_flux<dim>(corner_points<dim>(mesh, nodes), material.conductivity->value.constant().value(), corner);
+}
+
+// Over both splits, by volume.
+template <int dim>
+Point<dim> mean_flux(const mesh::BlockMesh<dim>& mesh, const Material& material, CellId cell,
+                     const Eigen::VectorXd& temperature) {
+  Point<dim> sum = Point<dim>::Zero();
+  double volume = 0;
+  for (const mesh::Simplex<dim>& nodes : mesh::both_splits(mesh, cell)) {
+    const double part = mesh::simplex_volume<dim>(mesh, nodes);
+    sum += part * simplex_flux<dim>(mesh, material, nodes, temperature);
+    volume += part;
+  }
+  return sum / volume;
 }
 
 }  // namespace
@@ -119,15 +141,28 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
 }
 
 template <int dim>
+std::vector<Point<dim>> cell_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                    const Eigen::VectorXd& temperature) {
+  const std::vector<Point<dim>> of_elements = element_fluxes(mesh, materials, temperature);
+  if (mesh.cells.empty()) return of_elements;
+  std::vector<Point<dim>> fluxes;
+  for (const BlockId b : mesh.blocks.ids()) {
+    const mesh::Block& block = mesh.blocks[b];
+    for (const CellId cell : block.cells) fluxes.push_back(mean_flux(mesh, material_of(mesh, materials, b), cell, temperature));
+    if (block.cells.size() > 0) continue;
+    for (const ElementId e : block.elements) fluxes.push_back(of_elements[e.index()]);
+  }
+  return fluxes;
+}
+
+template <int dim>
 std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                                        const Eigen::VectorXd& temperature) {
   std::vector<Point<dim>> fluxes(mesh.elements.size());
   for (const BlockId b : mesh.blocks.ids()) {
-    const double conductivity = material_of(mesh, materials, b).conductivity->value.constant().value();
+    const Material& material = material_of(mesh, materials, b);
     for (const ElementId e : mesh.blocks[b].elements) {
-      CornerValues<dim> corner;
-      for (int i = 0; i <= dim; ++i) corner[i] = temperature[mesh.elements[e][i].value()];
-      fluxes[e.index()] = element_flux<dim>(corner_points<dim>(mesh, e), conductivity, corner);
+      fluxes[e.index()] = simplex_flux<dim>(mesh, material, mesh.elements[e], temperature);
     }
   }
   return fluxes;
@@ -136,6 +171,8 @@ std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const T
 #define SCREE_INSTANTIATE(dim)                                                                                          \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,              \
                                           const contact::ContactSet<dim>&, const HeatOptions&);                         \
+  template std::vector<Point<dim>> cell_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,    \
+                                                    const Eigen::VectorXd&);                                            \
   template std::vector<Point<dim>> element_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
                                                        const Eigen::VectorXd&);
 SCREE_INSTANTIATE(2)

@@ -40,7 +40,7 @@ struct Boundary {
 
 struct Source {
   Region region;
-  double power = 0;  // [W/m3], in every element whose centre is in the region
+  double power = 0;  // [W/m3], in every simplex (of cells: of both splits) whose centre is in the region
   std::string name;
   SourceLocation where;
 };

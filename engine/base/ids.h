@@ -33,6 +33,7 @@ using BlockId = Id<struct BlockTag>;
 using ElementId = Id<struct ElementTag>;
 using NodeId = Id<struct NodeTag>;
 using FaceId = Id<struct FaceTag>;
+using CellId = Id<struct CellTag>;
 using SurfaceId = Id<struct SurfaceTag>;
 
 // Consecutive ids [first, last).

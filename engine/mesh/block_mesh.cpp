@@ -66,7 +66,11 @@ Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh) {
 
 template <int dim>
 double element_volume(const BlockMesh<dim>& mesh, ElementId element) {
-  const auto& corner = mesh.elements[element];
+  return simplex_volume<dim>(mesh, mesh.elements[element]);
+}
+
+template <int dim>
+double simplex_volume(const BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& corner) {
   Eigen::Matrix<double, dim, dim> edges;
   for (int i = 0; i < dim; ++i) edges.col(i) = mesh.nodes[corner[i + 1]] - mesh.nodes[corner[0]];
   return edges.determinant() / (dim == 2 ? 2.0 : 6.0);
@@ -115,12 +119,13 @@ Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh) {
   return owner;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                  \
-  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&); \
-  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);        \
-  template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);      \
-  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);     \
-  template double mean_edge<dim>(const BlockMesh<dim>&);                        \
+#define SCREE_INSTANTIATE(dim)                                                                    \
+  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&);                   \
+  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);                          \
+  template double simplex_volume<dim>(const BlockMesh<dim>&, const std::array<NodeId, dim + 1>&); \
+  template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);                        \
+  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);                       \
+  template double mean_edge<dim>(const BlockMesh<dim>&);                                          \
   template Table<ElementId, BlockId> element_blocks<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -10,6 +10,7 @@
 
 #include "engine/base/geometry.h"
 #include "engine/base/ids.h"
+#include "engine/mesh/cell_kind.h"
 
 namespace scree::mesh {
 
@@ -26,6 +27,13 @@ struct Block {
   BodyId body;
   IdRange<NodeId> nodes;
   IdRange<ElementId> elements;
+  IdRange<CellId> cells = {};  // empty if the block has simplices only; else its elements are a conforming split of them
+};
+
+// A quadrilateral, wedge or hexahedron.
+struct Cell {
+  CellKind kind = CellKind::hexahedron;
+  std::array<NodeId, 8> nodes;  // those beyond its corners are not valid
 };
 
 // A part of a body's boundary that has a name: a side of a box, a physical group of a mesh file.
@@ -50,6 +58,7 @@ struct BlockMesh {
 
   Table<NodeId, Point<dim>> nodes;  // [m]
   Table<ElementId, Element> elements;
+  Table<CellId, Cell> cells;
   Table<BlockId, Block> blocks;
   Table<BodyId, Body> bodies;
   Table<SurfaceId, NamedSurface> surface_names;
@@ -71,6 +80,8 @@ Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh);
 // Signed area (2-D, times unit thickness) or volume (3-D) of an element; positive for a well-oriented one.
 template <int dim>
 double element_volume(const BlockMesh<dim>& mesh, ElementId element);
+template <int dim>
+double simplex_volume(const BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& corners);
 
 // Length (2-D, times unit thickness) or area (3-D) of a face [m2].
 template <int dim>

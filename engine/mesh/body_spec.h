@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/geometry.h"
 #include "engine/base/ids.h"
+#include "engine/mesh/cell_kind.h"
 
 namespace scree::mesh {
 
@@ -63,7 +65,8 @@ struct BodySpec {
   std::string name;
   Shape shape;
   Arrangement arrangement = AtPoses{};
-  double mesh_size = 0;  // target edge length [m]
+  double mesh_size = 0;           // target edge length [m]
+  std::optional<CellKind> cells;  // what a shape is meshed with; nothing: simplices. A mesh file has its own
   BlockRule blocks = BlockRule::whole;
   MaterialId material;
   bool fixed = false;

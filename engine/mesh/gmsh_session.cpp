@@ -10,7 +10,7 @@ namespace scree::mesh {
 namespace {
 
 // Element types of Gmsh's API.
-constexpr int line = 1, triangle = 2, tetrahedron = 4, point = 15;
+constexpr int line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5, prism = 6, point = 15;
 
 class Session {
  public:
@@ -42,7 +42,16 @@ std::vector<RawCell<corners>> cells(const std::vector<std::size_t>& numbers, con
   return made;
 }
 
-std::string kind_name(int type) {
+void add_large_cells(CellKind kind, const std::vector<std::size_t>& numbers, const std::vector<std::size_t>& nodes,
+                     const std::unordered_map<std::size_t, std::size_t>& index, RawMesh& mesh) {
+  const std::size_t corners = corner_count(kind);
+  for (std::size_t e = 0; e < numbers.size(); ++e) {
+    RawLargeCell& cell = mesh.cells.emplace_back(RawLargeCell{kind, numbers[e], {}});
+    for (std::size_t i = 0; i < corners; ++i) cell.nodes[i] = index.at(nodes[corners * e + i]);
+  }
+}
+
+std::string gmsh_name(int type) {
   std::string name;
   int dimension = 0, order = 0, nodes = 0, primary = 0;
   std::vector<double> local;
@@ -114,6 +123,11 @@ void generate(int dimension, double mesh_size, FaceMesher faces) {
   gmsh::model::mesh::generate(dimension);
 }
 
+void only_quadrilaterals() {
+  gmsh::option::setNumber("Mesh.RecombineAll", 1);
+  gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // blossom, all quadrilaterals
+}
+
 RawMesh model_mesh() {
   RawMesh mesh;
   std::vector<double> coordinates, parametric;
@@ -133,8 +147,14 @@ RawMesh model_mesh() {
       mesh.triangles = cells<3>(numbers[t], nodes[t], index);
     } else if (types[t] == line || types[t] == point) {
       for (const std::size_t node : nodes[t]) mesh.marked.push_back(index.at(node));
+    } else if (types[t] == quadrangle) {
+      add_large_cells(CellKind::quadrilateral, numbers[t], nodes[t], index, mesh);
+    } else if (types[t] == prism) {
+      add_large_cells(CellKind::wedge, numbers[t], nodes[t], index, mesh);
+    } else if (types[t] == hexahedron) {
+      add_large_cells(CellKind::hexahedron, numbers[t], nodes[t], index, mesh);
     } else {
-      mesh.unusable[kind_name(types[t])] += numbers[t].size();
+      mesh.unusable[gmsh_name(types[t])] += numbers[t].size();
     }
   }
   mesh.surfaces = physical_groups(index);

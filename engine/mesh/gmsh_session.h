@@ -22,6 +22,9 @@ enum class FaceMesher { mesh_adapt = 1, delaunay = 5, frontal_delaunay = 6 };
 // Makes the elements of the current model about `mesh_size` long and fills dimension `dimension` with them.
 void generate(int dimension, double mesh_size, FaceMesher faces = FaceMesher::frontal_delaunay);
 
+// Lets `generate` leave no triangle among the quadrilaterals of a plane shape.
+void only_quadrilaterals();
+
 // The nodes and elements of the current model.
 RawMesh model_mesh();
 

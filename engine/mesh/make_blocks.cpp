@@ -1,9 +1,11 @@
 #include "engine/mesh/make_blocks.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/mesh/arrangement.h"
 #include "engine/mesh/mesh_file.h"
+#include "engine/mesh/problems.h"
 #include "engine/mesh/shape_mesh.h"
 #include "engine/mesh/shape_surfaces.h"
 #include "engine/mesh/simplex_mesh.h"
@@ -14,7 +16,11 @@ namespace {
 
 template <int dim>
 Parts<dim> mesh_parts(const BodySpec& body, const MeshReaders& readers) {
-  if (std::holds_alternative<MeshFile>(body.shape)) return mesh_file<dim>(body, readers);
+  if (std::holds_alternative<MeshFile>(body.shape)) {
+    if (!body.cells) return mesh_file<dim>(body, readers);
+    throw body_error(body, "elements", kind_name(*body.cells), "is for shapes; a mesh file says what its elements are",
+                     "Leave it away");
+  }
   Parts<dim> parts{{mesh_shape<dim>(body)}, {}};
   name_surfaces<dim>(body.shape, parts);
   return parts;
@@ -36,6 +42,15 @@ Bounds bounds_of(const Parts<dim>& parts) {
   return bounds;
 }
 
+// Calls `visit` with every surface that the face lies on.
+template <int dim, class Visit>
+void names_of(OuterFace<dim> nodes, const std::vector<NamedFace<dim>>& named, const Visit& visit) {
+  std::sort(nodes.begin(), nodes.end());
+  const auto before = [](const NamedFace<dim>& face, const OuterFace<dim>& value) { return face.nodes < value; };
+  auto face = std::lower_bound(named.begin(), named.end(), nodes, before);
+  for (; face != named.end() && face->nodes == nodes; ++face) visit(face->surface);
+}
+
 // Calls `visit` with every named face that has all its nodes among `element`, and with the places of its nodes there.
 template <int dim, class Visit>
 void faces_of(const std::array<std::size_t, dim + 1>& element, const std::vector<NamedFace<dim>>& named, const Visit& visit) {
@@ -45,20 +60,48 @@ void faces_of(const std::array<std::size_t, dim + 1>& element, const std::vector
       if (i != out) corners[k++] = i;
     }
     std::transform(corners.begin(), corners.end(), nodes.begin(), [&](std::size_t corner) { return element[corner]; });
-    std::sort(nodes.begin(), nodes.end());
-    const auto before = [](const NamedFace<dim>& face, const OuterFace<dim>& value) { return face.nodes < value; };
-    auto face = std::lower_bound(named.begin(), named.end(), nodes, before);
-    for (; face != named.end() && face->nodes == nodes; ++face) visit(NamedFace<dim>{corners, face->surface});
+    names_of<dim>(nodes, named, [&](std::size_t surface) { visit(NamedFace<dim>{corners, surface}); });
   }
 }
 
-// Every element on its own.
+// A cell on its own, with its elements and its named faces: those that have no node outside of it.
+template <int dim>
+SimplexMesh<dim> lone_cell(const SimplexMesh<dim>& part, const RawLargeCell& cell, std::size_t first_element,
+                           const std::vector<NamedFace<dim>>& named) {
+  const auto end = cell.nodes.begin() + static_cast<std::ptrdiff_t>(corner_count(cell.kind));
+  const auto place = [&](std::size_t node) {
+    return static_cast<std::size_t>(std::find(cell.nodes.begin(), end, node) - cell.nodes.begin());
+  };
+  SimplexMesh<dim> piece;
+  piece.cells.push_back(cell);
+  std::iota(piece.cells[0].nodes.begin(), piece.cells[0].nodes.end(), std::size_t{0});
+  std::for_each(cell.nodes.begin(), end, [&](std::size_t node) { piece.nodes.push_back(part.nodes[node]); });
+  for (std::size_t e = 0; e < split_count(cell.kind); ++e) {
+    auto element = part.elements[first_element + e];
+    for (std::size_t& node : element) node = place(node);
+    piece.elements.push_back(element);
+  }
+  for (OuterFace<dim> corners : outer_faces(piece)) {
+    OuterFace<dim> nodes;
+    std::transform(corners.begin(), corners.end(), nodes.begin(), [&](std::size_t corner) { return cell.nodes[corner]; });
+    names_of<dim>(nodes, named, [&](std::size_t surface) { piece.named.push_back({corners, surface}); });
+  }
+  return piece;
+}
+
+// Every element or cell on its own.
 template <int dim>
 Parts<dim> broken(const Parts<dim>& parts) {
   Parts<dim> pieces{{}, parts.surfaces};
   for (const SimplexMesh<dim>& part : parts.meshes) {
     auto named = part.named;
     std::sort(named.begin(), named.end(), [](const auto& a, const auto& b) { return a.nodes < b.nodes; });
+    std::size_t first_element = 0;
+    for (const RawLargeCell& cell : part.cells) {
+      pieces.meshes.push_back(lone_cell(part, cell, first_element, named));
+      first_element += split_count(cell.kind);
+    }
+    if (!part.cells.empty()) continue;
     for (const auto& element : part.elements) {
       SimplexMesh<dim> piece;
       for (std::size_t corner = 0; corner < element.size(); ++corner) {
@@ -88,6 +131,12 @@ void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMes
     for (std::size_t corner = 0; corner < element.size(); ++corner) nodes[corner] = NodeId{first_node + element[corner]};
     mesh.elements.push_back(nodes);
   }
+  const std::size_t first_cell = mesh.cells.size();
+  for (const RawLargeCell& cell : part.cells) {
+    Cell placed{cell.kind, {}};
+    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) placed.nodes[i] = NodeId{first_node + cell.nodes[i]};
+    mesh.cells.push_back(placed);
+  }
   for (const NamedFace<dim>& face : part.named) {
     SurfaceFace<dim> placed;
     std::transform(face.nodes.begin(), face.nodes.end(), placed.nodes.begin(),
@@ -95,7 +144,8 @@ void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMes
     placed.surface = SurfaceId{first_surface + face.surface};
     mesh.surfaces.push_back(placed);
   }
-  mesh.blocks.push_back({body, {first_node, mesh.nodes.size()}, {first_element, mesh.elements.size()}});
+  mesh.blocks.push_back(
+      {body, {first_node, mesh.nodes.size()}, {first_element, mesh.elements.size()}, {first_cell, mesh.cells.size()}});
 }
 
 }  // namespace
@@ -105,8 +155,9 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
   BlockMesh<dim> mesh;
   std::vector<Parts<dim>> meshed;  // as `bodies`; a shape that comes again is not meshed again
   for (const BodySpec& body : bodies) {
-    const auto same = std::find_if(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(meshed.size()),
-                                   [&](const BodySpec& b) { return b.shape == body.shape && b.mesh_size == body.mesh_size; });
+    const auto same = std::find_if(
+        bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(meshed.size()),
+        [&](const BodySpec& b) { return b.shape == body.shape && b.mesh_size == body.mesh_size && b.cells == body.cells; });
     const auto before = static_cast<std::size_t>(same - bodies.begin());
     meshed.push_back(before < meshed.size() ? meshed[before] : mesh_parts<dim>(body, readers));
     const Parts<dim>& whole = meshed.back();

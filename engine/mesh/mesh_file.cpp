@@ -12,6 +12,7 @@
 #include "engine/mesh/gmsh_session.h"
 #include "engine/mesh/point_checks.h"
 #include "engine/mesh/problems.h"
+#include "engine/mesh/split_cells.h"
 #include "engine/mesh/volume_mesh.h"
 
 namespace scree::mesh {
@@ -74,18 +75,19 @@ RawMesh read_raw(const BodySpec& body, const MeshReaders& more) {
   }
 }
 
-void expect_simplices(const BodySpec& body, const RawMesh& raw) {
+void expect_known_kinds(const BodySpec& body, const RawMesh& raw) {
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : raw.unusable) kinds.push_back(fmt::format("{} x {}", count, kind));
   if (kinds.empty()) return;
-  throw file_error(body, fmt::format("must hold first-order triangles or tetrahedra only; it holds {}", fmt::join(kinds, ", ")),
-                   "Mesh the shape with tetrahedra of first order");
+  throw file_error(body, fmt::format("must hold elements of first order and no pyramids; it holds {}", fmt::join(kinds, ", ")),
+                   "Mesh the shape with tetrahedra, wedges or hexahedra of first order");
 }
 
 void expect_in_plane(const BodySpec& body, const RawMesh& raw) {
   const auto off = std::find_if(raw.points.begin(), raw.points.end(), [](const auto& point) { return point.z() != 0; });
   if (raw.tetrahedra.empty() && off == raw.points.end()) return;
-  throw file_error(body, "a scene in 2-D takes triangles in the plane z = 0", "Use a plane mesh, or `dimension: 3`");
+  throw file_error(body, "a scene in 2-D takes triangles or quadrilaterals in the plane z = 0",
+                   "Use a plane mesh, or `dimension: 3`");
 }
 
 }  // namespace
@@ -94,14 +96,15 @@ template <int dim>
 Parts<dim> mesh_file(const BodySpec& body, const MeshReaders& readers) {
   RawMesh raw = read_raw(body, readers);
   for (Eigen::Vector3d& point : raw.points) point *= std::get<MeshFile>(body.shape).scale;
-  expect_simplices(body, raw);
-  if (raw.triangles.empty() && raw.tetrahedra.empty()) {
-    throw file_error(body, "it holds no triangles and no tetrahedra", "Export the mesh with its elements");
+  expect_known_kinds(body, raw);
+  if (raw.triangles.empty() && raw.tetrahedra.empty() && raw.cells.empty()) {
+    throw file_error(body, "it holds no elements with an area or a volume", "Export the mesh with its elements");
   }
   check_points(body, raw);
   raw.surfaces.erase(std::remove_if(raw.surfaces.begin(), raw.surfaces.end(),
                                     [](const RawSurface& surface) { return surface.dimension != dim - 1; }),
                      raw.surfaces.end());
+  split_cells<dim>(body, raw);
   if constexpr (dim == 2) {
     expect_in_plane(body, raw);
   } else if (raw.tetrahedra.empty()) {

@@ -30,6 +30,9 @@ void check_use(const BodySpec& body, const RawMesh& raw) {
   for (const auto& cell : raw.tetrahedra) {
     for (const std::size_t node : cell.nodes) used[node] = true;
   }
+  for (const RawLargeCell& cell : raw.cells) {
+    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) used[cell.nodes[i]] = true;
+  }
   const auto loose = std::find(used.begin(), used.end(), false);
   if (loose == used.end()) return;
   const auto first = static_cast<std::size_t>(loose - used.begin());

@@ -11,12 +11,21 @@
 
 #include <Eigen/Core>
 
+#include "engine/mesh/cell_kind.h"
+
 namespace scree::mesh {
 
 template <int corners>
 struct RawCell {
   std::size_t number = 0;  // as the file counts, for messages
   std::array<std::size_t, corners> nodes{};
+};
+
+// A quadrilateral, wedge or hexahedron.
+struct RawLargeCell {
+  CellKind kind = CellKind::hexahedron;
+  std::size_t number = 0;
+  std::array<std::size_t, 8> nodes{};  // as many as it has corners
 };
 
 // The faces of a physical group: lines if its dimension is 1, triangles and quadrilaterals if it is 2.
@@ -32,6 +41,7 @@ struct RawMesh {
   std::vector<std::size_t> marked;         // points of point and line elements, which are otherwise left out
   std::vector<RawCell<3>> triangles;
   std::vector<RawCell<4>> tetrahedra;
+  std::vector<RawLargeCell> cells;
   std::vector<RawSurface> surfaces;
   std::map<std::string, std::size_t> unusable;  // any other kind of element, with its count
 };

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "engine/mesh/cell_shapes.h"
 #include "engine/mesh/gmsh_session.h"
 #include "engine/mesh/problems.h"
+#include "engine/mesh/split_cells.h"
 
 namespace scree::mesh {
 
@@ -130,6 +132,7 @@ double extent(const Cylinder& cylinder) {
   return std::max(cylinder.diameter, cylinder.height);
 }
 
+// Triangles or tetrahedra, or quadrilaterals if the body asks for them.
 template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   // A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
@@ -145,10 +148,12 @@ SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
     with_gmsh([&] {
       gmsh::model::add(body.name);
       draw<dim>(shape);
+      if (body.cells) only_quadrilaterals();
       generate(dim, size, faces);
       raw = model_mesh();
     });
     for (Eigen::Vector3d& point : raw.points) to_surface(shape, point);
+    split_cells<dim>(body, raw);
     const SimplexMesh<dim> made = whole_of<dim>(raw);
     const double quality = worst_quality(made);
     if (quality > best_quality) best = made;
@@ -156,6 +161,28 @@ SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
     if (best_quality >= good_quality) break;
   }
   return best;
+}
+
+// Wedges and hexahedra stand on triangles and quadrilaterals.
+SimplexMesh<3> mesh_extruded(const BodySpec& body, const Shape& plane, double height) {
+  BodySpec base = body;
+  base.shape = plane;
+  base.cells.reset();
+  if (body.cells == CellKind::hexahedron) base.cells = CellKind::quadrilateral;
+  return extruded(body, mesh_shape<2>(base), height);
+}
+
+template <int dim, class ShapeType>
+SimplexMesh<dim> mesh_in_cells(const BodySpec& body, const ShapeType& shape) {
+  if constexpr (std::is_same_v<ShapeType, Box> && dim == 2) {
+    return grid_of(body, shape);
+  } else if constexpr (std::is_same_v<ShapeType, Box>) {
+    return mesh_extruded(body, shape, shape.size.z());
+  } else if constexpr (std::is_same_v<ShapeType, Cylinder>) {
+    return mesh_extruded(body, Sphere{shape.diameter}, shape.height);
+  } else {
+    return mesh_drawn<dim>(body, shape);
+  }
 }
 
 }  // namespace
@@ -169,9 +196,10 @@ SimplexMesh<dim> mesh_shape(const BodySpec& body) {
     } else if constexpr (std::is_same_v<ShapeType, Cylinder> && dim == 2) {
       throw body_error(body, "cylinder", "", "a scene in 2-D has no cylinders", "Use a box or a disc (sphere)");
     } else {
-      return mesh_drawn<dim>(body, shape);
+      return body.cells ? mesh_in_cells<dim>(body, shape) : mesh_drawn<dim>(body, shape);
     }
   };
+  check_cells<dim>(body);
   try {
     return std::visit(mesh, body.shape);
   } catch (const GmshFailure& failure) {

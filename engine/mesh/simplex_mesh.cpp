@@ -6,11 +6,42 @@
 
 #include <Eigen/LU>
 
+#include "engine/mesh/outer_cell_faces.h"
+
 namespace scree::mesh {
 
 namespace {
 
 constexpr auto not_there = static_cast<std::size_t>(-1);
+
+std::vector<OuterFace<3>> outer_faces_of_cells(const SimplexMesh<3>& mesh) {
+  std::vector<OuterFace<3>> outer;
+  for_each_outer_face(mesh.cells, [&](std::size_t c, CornerList corners) {
+    for (const auto& triangle : face_triangles(corners.size())) {
+      OuterFace<3> face;
+      for (std::size_t i = 0; i < 3; ++i) face[i] = mesh.cells[c].nodes[corners[triangle[i]]];
+      std::sort(face.begin(), face.end());
+      outer.push_back(face);
+    }
+  });
+  std::sort(outer.begin(), outer.end());
+  return outer;
+}
+
+// Calls `visit` with the faces of dim nodes that make up a face of a file: itself, or the triangles in a quadrilateral.
+template <int dim, class Visit>
+void simplex_faces(const std::vector<std::size_t>& face, const Visit& visit) {
+  OuterFace<dim> nodes{};
+  if (face.size() == nodes.size()) {
+    std::copy(face.begin(), face.end(), nodes.begin());
+    visit(nodes);
+  } else if (dim == 3 && face.size() == 4) {
+    for (const auto& triangle : face_triangles(4)) {
+      std::transform(triangle.begin(), triangle.end(), nodes.begin(), [&](std::size_t corner) { return face[corner]; });
+      visit(nodes);
+    }
+  }
+}
 
 // A face of a surface is an outer face of the mesh, or there is none of these nodes.
 template <int dim>
@@ -18,11 +49,11 @@ void name_faces(const RawMesh& raw, const std::vector<std::size_t>& place, Simpl
   const std::vector<OuterFace<dim>> outer = outer_faces(mesh);
   for (std::size_t surface = 0; surface < raw.surfaces.size(); ++surface) {
     for (const std::vector<std::size_t>& face : raw.surfaces[surface].faces) {
-      OuterFace<dim> nodes;
-      if (face.size() != nodes.size()) continue;
-      std::transform(face.begin(), face.end(), nodes.begin(), [&](std::size_t node) { return place[node]; });
-      std::sort(nodes.begin(), nodes.end());
-      if (std::binary_search(outer.begin(), outer.end(), nodes)) mesh.named.push_back({nodes, surface});
+      simplex_faces<dim>(face, [&](OuterFace<dim> nodes) {
+        for (std::size_t& node : nodes) node = place[node];
+        std::sort(nodes.begin(), nodes.end());
+        if (std::binary_search(outer.begin(), outer.end(), nodes)) mesh.named.push_back({nodes, surface});
+      });
     }
   }
 }
@@ -63,6 +94,9 @@ double worst_quality(const SimplexMesh<dim>& mesh) {
 
 template <int dim>
 std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh) {
+  if constexpr (dim == 3) {
+    if (!mesh.cells.empty()) return outer_faces_of_cells(mesh);
+  }
   std::vector<OuterFace<dim>> faces;
   for (const auto& element : mesh.elements) {
     for (std::size_t out = 0; out <= dim; ++out) {
@@ -102,6 +136,11 @@ SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& cho
     auto nodes = cells[e].nodes;
     for (std::size_t& node : nodes) node = place[node];
     mesh.elements.push_back(nodes);
+  }
+  for (RawLargeCell cell : raw.cells) {
+    if (place[cell.nodes[0]] == not_there) continue;
+    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) cell.nodes[i] = place[cell.nodes[i]];
+    mesh.cells.push_back(cell);
   }
   if (!raw.surfaces.empty()) name_faces(raw, place, mesh);
   return mesh;

@@ -25,6 +25,7 @@ template <int dim>
 struct SimplexMesh {
   std::vector<Point<dim>> nodes;                           // [m]
   std::vector<std::array<std::size_t, dim + 1>> elements;  // positively oriented
+  std::vector<RawLargeCell> cells;  // if there are any: the elements are their splits by the smallest node, in this order
   std::vector<NamedFace<dim>> named;
 };
 
@@ -47,7 +48,7 @@ double signed_volume(const std::array<Point<dim>, dim + 1>& corners);
 template <int dim>
 double worst_quality(const SimplexMesh<dim>& mesh);
 
-// The faces that belong to one element only, ascending.
+// The faces that belong to one element only, ascending; of the quadrilateral faces of cells, both diagonals' triangles.
 template <int dim>
 std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh);
 

@@ -17,7 +17,12 @@ namespace {
 constexpr double flat = 1e-10;
 
 template <int dim>
-constexpr const char* element_name = dim == 2 ? "triangle" : "tetrahedron";
+constexpr const char* simplex_name = dim == 2 ? "triangle" : "tetrahedron";
+
+template <int dim>
+const char* element_name(const RawMesh& raw) {
+  return raw.cells.empty() ? simplex_name<dim> : "cell";
+}
 
 template <int dim>
 std::array<Point<dim>, dim + 1> corners_of(const RawMesh& raw, const RawCell<dim + 1>& cell) {
@@ -36,11 +41,11 @@ void check_elements(const BodySpec& body, const RawMesh& raw) {
     }
     const double volume = signed_volume<dim>(corners);
     if (std::abs(volume) <= flat * std::pow(longest, dim)) {
-      throw file_error(body, fmt::format("{} {} is flat", element_name<dim>, cell.number), "Mesh the shape again");
+      throw file_error(body, fmt::format("{} {} is flat", element_name<dim>(raw), cell.number), "Mesh the shape again");
     }
     if (volume < 0) {
       throw file_error(
-          body, fmt::format("{} {} is inside out", element_name<dim>, cell.number),
+          body, fmt::format("{} {} is inside out", element_name<dim>(raw), cell.number),
           dim == 2 ? "Turn the surface over, so that its triangles run counter-clockwise" : "Mesh the shape again");
     }
   }
@@ -74,10 +79,10 @@ void check_faces(const BodySpec& body, const RawMesh& raw) {
                    [](const Side& a, const Side& b) { return std::tie(a.face, a.front) < std::tie(b.face, b.front); });
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].face != sides[i - 1].face || sides[i].front != sides[i - 1].front) continue;
-    throw file_error(
-        body,
-        fmt::format("{0}s {1} and {2} lie on the same side of a face", element_name<dim>, sides[i - 1].number, sides[i].number),
-        "Remove elements that are there twice or overlap");
+    throw file_error(body,
+                     fmt::format("{0}s {1} and {2} lie on the same side of a face", element_name<dim>(raw), sides[i - 1].number,
+                                 sides[i].number),
+                     "Remove elements that are there twice or overlap");
   }
 }
 

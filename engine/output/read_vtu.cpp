@@ -1,5 +1,6 @@
 #include "engine/output/read_vtu.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -26,7 +27,7 @@ void keep_first_error(vtkObject*, unsigned long, void* kept, void* message) {
   while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
 }
 
-std::string kind_name(int type) {
+std::string vtk_name(int type) {
   const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
   return name.starts_with("vtk") ? name.substr(3) : name;
 }
@@ -35,6 +36,12 @@ template <int corners>
 mesh::RawCell<corners> cell_of(std::size_t number, const vtkIdType* nodes) {
   mesh::RawCell<corners> cell{number, {}};
   for (int i = 0; i < corners; ++i) cell.nodes[i] = static_cast<std::size_t>(nodes[i]);
+  return cell;
+}
+
+mesh::RawLargeCell large_cell(mesh::CellKind kind, std::size_t number, const vtkIdType* nodes) {
+  mesh::RawLargeCell cell{kind, number, {}};
+  std::copy_n(nodes, mesh::corner_count(kind), cell.nodes.begin());
   return cell;
 }
 
@@ -54,12 +61,21 @@ void add_cell(vtkUnstructuredGrid& grid, vtkIdType c, mesh::RawMesh& raw) {
     case VTK_TRIANGLE:
       raw.triangles.push_back(cell_of<3>(number, nodes));
       break;
+    case VTK_QUAD:
+      raw.cells.push_back(large_cell(mesh::CellKind::quadrilateral, number, nodes));
+      break;
+    case VTK_WEDGE:
+      raw.cells.push_back(large_cell(mesh::CellKind::wedge, number, nodes));
+      break;
+    case VTK_HEXAHEDRON:
+      raw.cells.push_back(large_cell(mesh::CellKind::hexahedron, number, nodes));
+      break;
     case VTK_VERTEX:
     case VTK_LINE:
       for (vtkIdType i = 0; i < size; ++i) raw.marked.push_back(static_cast<std::size_t>(nodes[i]));
       break;
     default:
-      ++raw.unusable[kind_name(type)];
+      ++raw.unusable[vtk_name(type)];
   }
 }
 

@@ -14,6 +14,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -39,8 +40,14 @@ VtkCell vtk_cell(CellType type) {
       return {VTK_LINE, 2};
     case CellType::triangle:
       return {VTK_TRIANGLE, 3};
+    case CellType::quadrilateral:
+      return {VTK_QUAD, 4};
     case CellType::tetrahedron:
       return {VTK_TETRA, 4};
+    case CellType::wedge:
+      return {VTK_WEDGE, 6};
+    case CellType::hexahedron:
+      return {VTK_HEXAHEDRON, 8};
   }
   std::abort();
 }
@@ -76,8 +83,6 @@ void add_arrays(const std::vector<Array>& arrays, vtkIdType entries, vtkFieldDat
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Grid& grid, const Frame& frame) {
-  const VtkCell cell = vtk_cell(grid.type);
-  SCREE_EXPECT(grid.connectivity.size() % cell.corners == 0);
   auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -87,13 +92,21 @@ vtkSmartPointer<vtkUnstructuredGrid> to_vtk(const Grid& grid, const Frame& frame
 
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkTypeInt32Array> offsets;
-  const std::size_t count = grid.connectivity.size() / cell.corners;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
-  for (std::size_t i = 0; i <= count; ++i) {
-    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<std::int32_t>(i * cell.corners));
+  vtkNew<vtkUnsignedCharArray> types;
+  const auto count = static_cast<vtkIdType>(grid.types.size());
+  offsets->SetNumberOfValues(count + 1);
+  types->SetNumberOfValues(count);
+  std::size_t end = 0;
+  offsets->SetValue(0, 0);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const VtkCell cell = vtk_cell(grid.types[static_cast<std::size_t>(i)]);
+    end += cell.corners;
+    offsets->SetValue(i + 1, static_cast<std::int32_t>(end));
+    types->SetValue(i, static_cast<unsigned char>(cell.type));
   }
+  SCREE_EXPECT(end == grid.connectivity.size());
   cells->SetData(offsets, view<vtkTypeInt32Array>(grid.connectivity.data(), grid.connectivity.size(), 1));
-  data->SetCells(cell.type, cells);
+  data->SetCells(types, cells);
 
   add_arrays(frame.points, data->GetNumberOfPoints(), *data->GetPointData());
   add_arrays(frame.cells, data->GetNumberOfCells(), *data->GetCellData());

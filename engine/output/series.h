@@ -19,12 +19,12 @@
 
 namespace scree::output {
 
-enum class CellType : std::uint8_t { vertex, line, triangle, tetrahedron };
+enum class CellType : std::uint8_t { vertex, line, triangle, quadrilateral, tetrahedron, wedge, hexahedron };
 
-// Points and cells of one type. 2-D data has z = 0.
+// Points and cells. 2-D data has z = 0.
 struct Grid {
-  std::vector<Eigen::Vector3d> points;  // [m]
-  CellType type = CellType::tetrahedron;
+  std::vector<Eigen::Vector3d> points;     // [m]
+  std::vector<CellType> types;             // of each cell
   std::vector<std::int32_t> connectivity;  // corners of cell 0, of cell 1, ...
 };
 
@@ -41,6 +41,7 @@ struct Frame {
   std::vector<Array> cells;
 };
 
+// Block by block: its cells, or its elements if it has none.
 template <int dim>
 Grid make_grid(const mesh::BlockMesh<dim>& mesh);
 

@@ -15,7 +15,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -33,7 +33,8 @@ constexpr std::array report_numbers{&SettleReport::simulated_time,
 // A packing as plain lists.
 struct Lists {
   std::vector<double> nodes, velocities, poses, report;         // rows of dim, 3, 7 (translation; rotation x y z w), 1
-  std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 5, 2, 1
+  std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 7, 2, 1
+  std::vector<std::int64_t> cells;                              // rows of kind and 8 nodes, -1 for one it does not have
   std::vector<std::int64_t> surfaces, surface_bodies;           // rows of dim nodes and the surface, 1
   std::vector<std::string> texts;  // the names of the bodies, of the surfaces, then the criterion, if any
 };
@@ -46,10 +47,14 @@ Lists pack(const Packing<dim>& packing) {
     for (const NodeId node : element) lists.elements.push_back(node.value());
   }
   for (const mesh::Block& block : packing.mesh.blocks) {
-    for (const std::size_t entry :
-         {block.body.index(), block.nodes.first(), block.nodes.last(), block.elements.first(), block.elements.last()}) {
+    for (const std::size_t entry : {block.body.index(), block.nodes.first(), block.nodes.last(), block.elements.first(),
+                                    block.elements.last(), block.cells.first(), block.cells.last()}) {
       lists.blocks.push_back(static_cast<std::int64_t>(entry));
     }
+  }
+  for (const mesh::Cell& cell : packing.mesh.cells) {
+    lists.cells.push_back(static_cast<std::int64_t>(cell.kind));
+    for (const NodeId node : cell.nodes) lists.cells.push_back(node.value());
   }
   for (const mesh::Body& body : packing.mesh.bodies) {
     lists.texts.push_back(body.name);
@@ -101,10 +106,16 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
     for (std::size_t corner = 0; corner <= dim; ++corner) element[corner] = NodeId{at(lists.elements, i + corner)};
     mesh.elements.push_back(element);
   }
-  for (std::size_t i = 0; i < lists.blocks.size(); i += 5) {
+  for (std::size_t i = 0; i < lists.blocks.size(); i += 7) {
     mesh.blocks.push_back({BodyId{at(lists.blocks, i)},
                            {at(lists.blocks, i + 1), at(lists.blocks, i + 2)},
-                           {at(lists.blocks, i + 3), at(lists.blocks, i + 4)}});
+                           {at(lists.blocks, i + 3), at(lists.blocks, i + 4)},
+                           {at(lists.blocks, i + 5), at(lists.blocks, i + 6)}});
+  }
+  for (std::size_t i = 0; i + 9 <= lists.cells.size(); i += 9) {
+    mesh::Cell cell{static_cast<mesh::CellKind>(lists.cells[i]), {}};
+    for (std::size_t k = 0; k < mesh::corner_count(cell.kind); ++k) cell.nodes[k] = NodeId{at(lists.cells, i + 1 + k)};
+    mesh.cells.push_back(cell);
   }
   for (std::size_t b = 0; 2 * b < lists.bodies.size(); ++b) {
     const std::int64_t material = lists.bodies[2 * b];
@@ -145,7 +156,7 @@ std::string digest(const std::string& key, const Lists& lists) {
   };
   for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report}) add(*list);
   for (const auto* list :
-       {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.surfaces, &lists.surface_bodies}) {
+       {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.cells, &lists.surfaces, &lists.surface_bodies}) {
     add(*list);
   }
   for (const std::string& text : lists.texts) hasher.add(text);
@@ -160,7 +171,7 @@ Lists read_lists(const H5::H5File& in) {
   }
   for (const auto& [name, list] :
        {std::pair("elements", &lists.elements), std::pair("blocks", &lists.blocks), std::pair("bodies", &lists.bodies),
-        std::pair("outcome", &lists.outcome), std::pair("surfaces", &lists.surfaces),
+        std::pair("outcome", &lists.outcome), std::pair("cells", &lists.cells), std::pair("surfaces", &lists.surfaces),
         std::pair("surface_bodies", &lists.surface_bodies)}) {
     *list = integers(in, name);
   }
@@ -207,7 +218,8 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put_attribute("digest", digest(packing.key, lists));
   image.put("nodes", lists.nodes, dim);
   image.put("elements", lists.elements, dim + 1);
-  image.put("blocks", lists.blocks, 5);
+  image.put("blocks", lists.blocks, 7);
+  image.put("cells", lists.cells, 9);
   image.put("bodies", lists.bodies, 2);
   image.put("velocities", lists.velocities, 3);
   image.put("poses", lists.poses, 7);

@@ -139,17 +139,17 @@ TEST_F(MeshFiles, ADamagedFileIsRefusedWhereverItEnds) {
 
 TEST_F(MeshFiles, AnEmptyMeshIsRefused) {
   EXPECT_EQ(refusal("points.msh", msh_text(corners, {{Kind::line, {1, 2}}, {Kind::line, {3, 4}}})),
-            "(it holds no triangles and no tetrahedra). Export the mesh with its elements");
+            "(it holds no elements with an area or a volume). Export the mesh with its elements");
   EXPECT_EQ(refusal("empty.stl", "solid s\nendsolid s\n"),
-            "(it holds no triangles and no tetrahedra). Export the mesh with its elements");
+            "(it holds no elements with an area or a volume). Export the mesh with its elements");
 }
 
-TEST_F(MeshFiles, ElementsThatAreNoSimplicesAreNamed) {
-  const FileCell hexahedron{Kind::hexahedron, {1, 2, 4, 3, 5, 6, 8, 7}};
+TEST_F(MeshFiles, ElementsThatScreeDoesNotHaveAreNamed) {
+  const FileCell pyramid{Kind::pyramid, {1, 2, 4, 3, 5}};
   EXPECT_EQ(
-      refusal("hexahedron.msh", msh_text(cube_points(), {hexahedron})),
-      "(must hold first-order triangles or tetrahedra only; it holds 1 x Hexahedron 8). Mesh the shape with tetrahedra of "
-      "first order");
+      refusal("pyramid.msh", msh_text(cube_points(), {pyramid})),
+      "(must hold elements of first order and no pyramids; it holds 1 x Pyramid 5). Mesh the shape with tetrahedra, wedges "
+      "or hexahedra of first order");
 }
 
 TEST_F(MeshFiles, AnOpenSurfaceTellsItsOpenEdges) {
@@ -231,7 +231,7 @@ TEST_F(MeshFiles, ATriangleApartFromTheTetrahedraIsNamed) {
 
 TEST_F(MeshFiles, ASolidInATwoDimensionalSceneIsRefused) {
   EXPECT_EQ(refusal<2>("solid.msh", msh_text(corners, {one_tetrahedron})),
-            "(a scene in 2-D takes triangles in the plane z = 0). Use a plane mesh, or `dimension: 3`");
+            "(a scene in 2-D takes triangles or quadrilaterals in the plane z = 0). Use a plane mesh, or `dimension: 3`");
 }
 
 TEST_F(MeshFiles, AReaderAddsAKindOfFile) {

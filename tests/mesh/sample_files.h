@@ -13,7 +13,7 @@
 namespace scree::mesh {
 
 // Element types as Gmsh numbers them.
-enum class Kind { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5 };
+enum class Kind { line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedron = 5, wedge = 6, pyramid = 7 };
 
 struct FileCell {
   Kind kind;

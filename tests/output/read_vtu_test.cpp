@@ -98,8 +98,19 @@ TEST_F(ReadVtu, AClosedSurfaceIsMeshedInside) {
 }
 
 TEST_F(ReadVtu, OtherElementsAreNamed) {
+  write({{VTK_VOXEL, {0, 1, 2, 3, 4, 5, 6, 7}}}, true);
+  EXPECT_THAT(refusal(), HasSubstr("it holds 1 x Voxel"));
+}
+
+TEST_F(ReadVtu, WedgesOfEitherOrientationAndHexahedraAreRead) {
   write({{VTK_HEXAHEDRON, {0, 1, 3, 2, 4, 5, 7, 6}}}, true);
-  EXPECT_THAT(refusal(), HasSubstr("it holds 1 x Hexahedron"));
+  EXPECT_EQ(blocks().cells.size(), 1u);
+  write({{VTK_WEDGE, {0, 1, 2, 4, 5, 6}}, {VTK_WEDGE, {1, 2, 3, 5, 6, 7}}}, true);
+  const auto mesh = blocks();
+  EXPECT_EQ(mesh.cells.size(), 2u);
+  double volume = 0;
+  for (const ElementId e : mesh.elements.ids()) volume += mesh::element_volume(mesh, e);
+  EXPECT_NEAR(volume, 1, 1e-13);
 }
 
 TEST_F(ReadVtu, ADamagedFileIsRefusedWithoutAWordFromVtk) {

@@ -144,6 +144,24 @@ TEST_F(SeriesTest, VtkReadsBackWhatWasWrittenToTheBit) {
   EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 1.0 / 3);
 }
 
+TEST_F(SeriesTest, CellsAreShownAndNotTheirSimplices) {
+  mesh::BlockMesh<3> mesh = random_tets(3);
+  // The last tetrahedron's block becomes a wedge of the nodes of the last two.
+  mesh::Cell cell{mesh::CellKind::wedge, {}};
+  for (std::size_t i = 0; i < 6; ++i) cell.nodes[i] = NodeId{11 - i};
+  mesh.cells.push_back(cell);
+  mesh.blocks[BlockId{2}].cells = {0, 1};
+  const Grid grid = make_grid(mesh);
+  EXPECT_THAT(grid.types, ElementsAre(CellType::tetrahedron, CellType::tetrahedron, CellType::wedge));
+  Series series(folder_.path(), "heat");
+  series.write(grid, {1, {}, {}});
+  const auto data = read_back(data_ / "heat_000000.vtu");
+  ASSERT_EQ(data->GetNumberOfCells(), 3);
+  EXPECT_EQ(data->GetCellType(1), VTK_TETRA);
+  ASSERT_EQ(data->GetCellType(2), VTK_WEDGE);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(data->GetCell(2)->GetPointId(i), 11 - i);
+}
+
 TEST_F(SeriesTest, TheIndexNamesEveryFrameWithItsExactTime) {
   Series series(folder_.path(), "heat");
   write_frames(series, {0, 0.1, 1.0 / 3});
@@ -168,9 +186,9 @@ TEST_F(SeriesTest, TrianglesLinesAndVerticesKeepTheirType) {
   add_block<2>(triangle, BodyId{0}, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)});
   Series series(folder_.path(), "shapes");
   series.write(make_grid(triangle), {0, {}, {}});
-  series.write({grid_.points, CellType::line, {0, 1, 5, 7}}, {1, {}, {}});
-  series.write({grid_.points, CellType::vertex, {3}}, {2, {}, {}});
-  series.write({{}, CellType::line, {}}, {3, {}, {}});
+  series.write({grid_.points, {CellType::line, CellType::line}, {0, 1, 5, 7}}, {1, {}, {}});
+  series.write({grid_.points, {CellType::vertex}, {3}}, {2, {}, {}});
+  series.write({{}, {}, {}}, {3, {}, {}});
   const fs::path data = folder_.path() / "shapes";
   EXPECT_EQ(read_back(data / "shapes_000000.vtu")->GetCellType(0), VTK_TRIANGLE);
   EXPECT_EQ(read_back(data / "shapes_000001.vtu")->GetCellType(1), VTK_LINE);

@@ -42,7 +42,11 @@ Packing<dim> awkward_packing() {
     }
     packing.mesh.elements.push_back(element);
     const std::size_t nodes = dim + 1;
-    packing.mesh.blocks.push_back({BodyId{block}, {nodes * block, nodes * (block + 1)}, {block, block + 1}});
+    packing.mesh.blocks.push_back(
+        {BodyId{block}, {nodes * block, nodes * (block + 1)}, {block, block + 1}, {block, block + 1}});
+    mesh::Cell cell{dim == 2 ? mesh::CellKind::quadrilateral : mesh::CellKind::wedge, {}};
+    for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) cell.nodes[i] = NodeId{block + i};
+    packing.mesh.cells.push_back(cell);
     const SurfaceId surface = packing.mesh.surface_names.push_back({BodyId{block}, "x, low"});
     mesh::SurfaceFace<dim> face{{}, surface};
     std::copy_n(element.begin() + 1, dim, face.nodes.begin());
@@ -72,8 +76,14 @@ void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
     EXPECT_EQ(a.mesh.blocks[block].body, b.mesh.blocks[block].body);
     EXPECT_EQ(a.mesh.blocks[block].nodes, b.mesh.blocks[block].nodes);
     EXPECT_EQ(a.mesh.blocks[block].elements, b.mesh.blocks[block].elements);
+    EXPECT_EQ(a.mesh.blocks[block].cells, b.mesh.blocks[block].cells);
     EXPECT_EQ(a.poses[block].translation, b.poses[block].translation);
     EXPECT_EQ(a.poses[block].rotation.coeffs(), b.poses[block].rotation.coeffs());
+  }
+  ASSERT_EQ(a.mesh.cells.size(), b.mesh.cells.size());
+  for (const CellId cell : a.mesh.cells.ids()) {
+    EXPECT_EQ(a.mesh.cells[cell].kind, b.mesh.cells[cell].kind);
+    EXPECT_EQ(a.mesh.cells[cell].nodes, b.mesh.cells[cell].nodes);
   }
   ASSERT_EQ(a.mesh.bodies.size(), b.mesh.bodies.size());
   for (const BodyId body : a.mesh.bodies.ids()) {

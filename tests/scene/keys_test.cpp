@@ -96,6 +96,7 @@ std::vector<Change> world_changes() {
           {"materials.*.restitution", {}, "materials.ore.restitution=1"},
           {"bodies.*.material", {"heat=null", "output=null"}, "bodies.block.material=ice"},
           {"bodies.*.mesh_size", {}, "bodies.block.mesh_size=1"},
+          {"bodies.*.elements", {}, "bodies.block.elements=hexahedron"},
           {"bodies.*.blocks", {}, "bodies.block.blocks=per_element"},
           {"bodies.*.fixed", {}, "bodies.block.fixed=true"},
           {"bodies.*.velocity", {}, "bodies.block.velocity=[1, 0, 0]"},

@@ -181,9 +181,9 @@ std::string values_of(const Scene& scene) {
   }
   const auto as_text = [](const auto& value) { return text_of(value); };
   for (const mesh::BodySpec& b : scene.bodies) {
-    text +=
-        fmt::format("\nbody {} {} {} {} {} {} {} {}", b.name, std::visit(as_text, b.shape), std::visit(as_text, b.arrangement),
-                    b.mesh_size, static_cast<int>(b.blocks), b.material.value(), b.fixed, text_of(b.velocity));
+    text += fmt::format("\nbody {} {} {} {} {} {} {} {} {}", b.name, std::visit(as_text, b.shape),
+                        std::visit(as_text, b.arrangement), b.mesh_size, b.cells ? mesh::kind_name(*b.cells) : "simplex",
+                        static_cast<int>(b.blocks), b.material.value(), b.fixed, text_of(b.velocity));
   }
   if (scene.settle) {
     text += fmt::format("\nsettle {} {} {}", text_of(scene.settle->options), scene.settle->largest_overlap,

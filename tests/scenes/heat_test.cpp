@@ -1,4 +1,4 @@
-// The scenes that heat without motion: scenes/slab and scenes/bars_and_joint.
+// The scenes that heat without motion: scenes/slab, scenes/hexahedra and scenes/bars_and_joint.
 
 #include <cmath>
 
@@ -34,6 +34,22 @@ TEST(Slab, FollowsTheSeriesAtItsProbes) {
   }
   EXPECT_LT(run.summary["heat"]["ledger_residual"], 1e-8);
   EXPECT_FALSE(run.summary.contains("settle"));
+}
+
+TEST(Hexahedra, FollowTheSeriesAndSoDoWedges) {
+  const SceneRun run = test::run("hexahedra", fresh_directory("hexahedra"));
+  ASSERT_EQ(run.exit_status, 0);
+  const auto columns = run.probes();
+  const auto& time = columns.at("time");
+  ASSERT_EQ(time.size(), 5u);
+  for (const std::string bar : {"hexahedra", "wedges"}) {
+    for (std::size_t i = 1; i < time.size(); ++i) {
+      EXPECT_NEAR(columns.at(bar + "_near")[i] - celsius, bar_series(0.2, time[i]), 0.05) << bar;
+      EXPECT_NEAR(columns.at(bar + "_middle")[i] - celsius, bar_series(0.5, time[i]), 0.05) << bar;
+      EXPECT_NEAR(columns.at(bar + "_far")[i] - celsius, bar_series(0.8, time[i]), 0.05) << bar;
+    }
+  }
+  EXPECT_LT(run.summary["heat"]["ledger_residual"], 1e-8);
 }
 
 TEST(BarsAndJoint, ReachTheClosedFormOfTwoSlabsAndAJoint) {

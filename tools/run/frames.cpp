@@ -18,16 +18,13 @@ auto collect(const Contacts& contacts, Get get) {
 
 template <int dim>
 std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh) {
-  std::vector<std::int32_t> blocks(mesh.elements.size());
-  std::vector<std::int32_t> bodies(mesh.elements.size());
-  std::vector<std::int32_t> materials(mesh.elements.size());
+  std::vector<std::int32_t> blocks, bodies, materials;
   for (const BlockId id : mesh.blocks.ids()) {
     const mesh::Block& block = mesh.blocks[id];
-    for (const ElementId e : block.elements) {
-      blocks[e.index()] = id.value();
-      bodies[e.index()] = block.body.value();
-      materials[e.index()] = mesh.bodies[block.body].material.value();
-    }
+    const std::size_t shown = block.cells.size() > 0 ? block.cells.size() : block.elements.size();
+    blocks.insert(blocks.end(), shown, id.value());
+    bodies.insert(bodies.end(), shown, block.body.value());
+    materials.insert(materials.end(), shown, mesh.bodies[block.body].material.value());
   }
   return {{"block", 1, std::move(blocks)}, {"body", 1, std::move(bodies)}, {"material", 1, std::move(materials)}};
 }
@@ -57,12 +54,12 @@ output::Frame heat_frame(double time, const std::vector<output::Array>& identity
 template <int dim>
 output::Grid contact_grid(const contact::ContactSet<dim>& contacts) {
   output::Grid grid;
-  grid.type = output::CellType::vertex;
   for (const auto& contact : contacts.contacts) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     point.head<dim>() = contact.point;
     grid.points.push_back(point);
   }
+  grid.types.assign(grid.points.size(), output::CellType::vertex);
   grid.connectivity.resize(grid.points.size());
   std::iota(grid.connectivity.begin(), grid.connectivity.end(), 0);
   return grid;

@@ -9,14 +9,14 @@
 
 namespace scree::run {
 
-// `block`, `body` and `material` of every element: counted from 0 in the order of the scene.
+// `block`, `body` and `material` of every cell of output::make_grid: counted from 0 in the order of the scene.
 template <int dim>
 std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh);
 
 // Blocks on their way: grid of the mesh with every block at its pose.
 output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>& poses);
 
-// `temperature` [K] at the nodes and `heat_flux` [W/m2] in the elements.
+// `temperature` [K] at the nodes and `heat_flux` [W/m2] in the cells.
 template <int dim>
 output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
                          const std::vector<Point<dim>>& flux);

@@ -36,7 +36,7 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
 
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
-  const auto flux = thermal::element_fluxes(pile_.mesh, scene_.materials, state.temperature);
+  const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, state.temperature);
   series_.write(grid_, heat_frame<dim>(state.time, identity_, state.temperature, flux));
   const auto form = scene_.heat->joint.form;
   auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, form);

@@ -28,6 +28,10 @@ void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
   for (const auto& element : mesh.elements) {
     for (const NodeId node : element) hash.add(node.value());
   }
+  for (const mesh::Cell& cell : mesh.cells) {
+    hash.add(static_cast<int>(cell.kind));
+    for (const NodeId node : cell.nodes) hash.add(node.value());
+  }
   for (const mesh::Block& block : mesh.blocks) {
     hash.add(block.body.value()).add(block.nodes.size()).add(block.elements.size());
   }

@@ -161,6 +161,9 @@ Keys body_keys() {
       row("bodies.*", section, "One body: a shape, at one place or in many copies."),
       row("bodies.*.material", name, "What it is made of.").required(),
       row("bodies.*.mesh_size", quantity, "Edge length of its elements aimed at.", q::length, positive).required(),
+      row("bodies.*.elements", word, "Kind of element in 2-D: simplex, quadrilateral; in 3-D: simplex, wedge, hexahedron.")
+          .words({"simplex", "quadrilateral", "wedge", "hexahedron"})
+          .fallback("simplex"),
       row("bodies.*.blocks", word, "One block per copy of the shape, or one per element.")
           .words({"whole", "per_element"})
           .fallback("whole"),

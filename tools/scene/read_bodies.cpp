@@ -76,6 +76,14 @@ mesh::Arrangement read_arrangement(const Checked& body, const Pose& single, int 
   return poses;
 }
 
+// Nothing for simplices.
+std::optional<mesh::CellKind> cells_of(const std::string& word) {
+  for (const auto kind : {mesh::CellKind::quadrilateral, mesh::CellKind::wedge, mesh::CellKind::hexahedron}) {
+    if (word == mesh::kind_name(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Problems& problems) {
@@ -89,6 +97,7 @@ std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Pro
     spec.shape = placed.shape;
     spec.arrangement = read_arrangement(body, placed.pose, dimension, problems);
     spec.mesh_size = body.at("mesh_size").number();
+    spec.cells = cells_of(body.at("elements").text);
     spec.blocks = body.at("blocks").text == "per_element" ? mesh::BlockRule::per_element : mesh::BlockRule::whole;
     spec.material = resolve<MaterialId>(body.at("material"), materials, "material", problems);
     spec.fixed = body.at("fixed").flag();

@@ -1,0 +1,109 @@
+#include "engine/mesh/split_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/mesh/problems.h"
+#include "engine/mesh/simplex_mesh.h"
+
+namespace scree::mesh {
+
+namespace {
+
+// Of the cube (2-D: square) of its longest edge; a simplex below it is flat.
+constexpr double flat = 1e-10;
+
+template <int dim>
+std::vector<RawCell<dim + 1>>& simplices_of(RawMesh& raw) {
+  if constexpr (dim == 2) {
+    return raw.triangles;
+  } else {
+    return raw.tetrahedra;
+  }
+}
+
+// The volume over the cube (2-D: the area over the square) of the longest edge.
+template <int dim>
+double fullness(const RawMesh& raw, const std::array<std::size_t, dim + 1>& nodes) {
+  std::array<Point<dim>, dim + 1> corners;
+  std::transform(nodes.begin(), nodes.end(), corners.begin(),
+                 [&](std::size_t n) { return raw.points[n].template head<dim>(); });
+  double longest = 0;
+  for (const Point<dim>& a : corners) {
+    for (const Point<dim>& b : corners) longest = std::max(longest, (a - b).norm());
+  }
+  return longest > 0 ? signed_volume<dim>(corners) / std::pow(longest, dim) : 0;
+}
+
+template <int dim>
+double least_fullness(const RawMesh& raw, const RawLargeCell& cell) {
+  double least = 1;
+  for (const CornerList& corners : mixed_simplices(cell.kind)) {
+    std::array<std::size_t, dim + 1> nodes;
+    std::transform(corners.begin(), corners.end(), nodes.begin(), [&](std::size_t corner) { return cell.nodes[corner]; });
+    least = std::min(least, fullness<dim>(raw, nodes));
+  }
+  for (const auto& nodes : split_by_smallest<dim>(cell.kind, cell.nodes)) least = std::min(least, fullness<dim>(raw, nodes));
+  return least;
+}
+
+template <int dim>
+void orient(const BodySpec& body, const RawMesh& raw, RawLargeCell& cell) {
+  if (least_fullness<dim>(raw, cell) > flat) return;
+  if (cell.kind == CellKind::wedge) {
+    std::swap(cell.nodes[1], cell.nodes[2]);
+    std::swap(cell.nodes[4], cell.nodes[5]);
+    if (least_fullness<dim>(raw, cell) > flat) return;
+  }
+  throw body_error(body, std::holds_alternative<MeshFile>(body.shape) ? "mesh.file" : "",
+                   std::holds_alternative<MeshFile>(body.shape) ? std::get<MeshFile>(body.shape).path.string() : "",
+                   fmt::format("{} {} is inside out, flat or not convex", kind_name(cell.kind), cell.number),
+                   "Mesh the shape again");
+}
+
+// Quadrilaterals beside cells in 3-D are the faces an exporter adds.
+void drop_faces(const BodySpec& body, RawMesh& raw) {
+  std::vector<bool> used(raw.points.size(), false);
+  for (const RawLargeCell& cell : raw.cells) {
+    if (cell.kind == CellKind::quadrilateral) continue;
+    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) used[cell.nodes[i]] = true;
+  }
+  for (const RawLargeCell& cell : raw.cells) {
+    if (cell.kind != CellKind::quadrilateral) continue;
+    if (std::all_of(cell.nodes.begin(), cell.nodes.begin() + 4, [&](std::size_t node) { return used[node]; })) continue;
+    throw file_error(body, fmt::format("quadrilateral {} belongs to no wedge or hexahedron", cell.number),
+                     "Mesh the volume behind it, or cut a closed surface into triangles");
+  }
+  std::erase_if(raw.cells, [](const RawLargeCell& cell) { return cell.kind == CellKind::quadrilateral; });
+}
+
+}  // namespace
+
+template <int dim>
+void split_cells(const BodySpec& body, RawMesh& raw) {
+  if (raw.cells.empty()) return;
+  if constexpr (dim == 3) drop_faces(body, raw);
+  const auto solid = std::find_if(raw.cells.begin(), raw.cells.end(), [](const RawLargeCell& cell) {
+    return (cell.kind == CellKind::quadrilateral) != (dim == 2);
+  });
+  if (solid != raw.cells.end()) {
+    throw file_error(body, fmt::format("a scene in 2-D has no {}", kind_name(solid->kind)), "Use `dimension: 3`");
+  }
+  if (!simplices_of<dim>(raw).empty()) {
+    throw file_error(body,
+                     fmt::format("it holds {} beside {}", kind_name(raw.cells[0].kind), dim == 2 ? "triangles" : "tetrahedra"),
+                     "Mesh it with one family of elements, or make two bodies of it");
+  }
+  for (RawLargeCell& cell : raw.cells) {
+    orient<dim>(body, raw, cell);
+    for (const auto& nodes : split_by_smallest<dim>(cell.kind, cell.nodes))
+      simplices_of<dim>(raw).push_back({cell.number, nodes});
+  }
+}
+
+template void split_cells<2>(const BodySpec&, RawMesh&);
+template void split_cells<3>(const BodySpec&, RawMesh&);
+
+}  // namespace scree::mesh
