@@ -6,6 +6,8 @@ target_include_directories(scree_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # -ffp-contract=off: the same rounding whatever the processor's fused operations.
 target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
                                              -ffp-contract=off)
+# GCC 12 takes the empty optional strings of braced aggregates for uninitialised once they are inlined.
+target_compile_options(scree_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 target_compile_definitions(scree_flags INTERFACE $<$<BOOL:${SCREE_CHECKS}>:SCREE_CHECKS>)
 if(SCREE_SANITIZE)
   target_compile_options(scree_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)

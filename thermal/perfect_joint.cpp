@@ -59,7 +59,7 @@ class PerfectJoints {
 
   // The element's corners from `first` on, with `weight` . grad T as their flux.
   void set_side(PerfectTerm<dim>& term, int first, ElementId element, const Point<dim>& weight) const {
-    const Corners<dim> areas = opposite_areas<dim>(corner_points<dim>(mesh_, element));
+    const Corners<dim> areas = opposite_areas<dim>(corner_points<dim>(mesh_, mesh_.elements[element]));
     const double volume = mesh::element_volume(mesh_, element);
     for (int a = 0; a <= dim; ++a) {
       term.nodes[first + a] = mesh_.elements[element][a];

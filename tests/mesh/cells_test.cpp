@@ -138,7 +138,7 @@ TEST(Cells, ABoxOfHexahedraHasItsVolumeItsSurfaceAndItsCount) {
   for (const CellKind kind : {CellKind::hexahedron, CellKind::wedge}) {
     const auto mesh = make_blocks<3>({in_cells(box_of(0.4, 0.3, 0.2), 0.1, kind)});
     ASSERT_EQ(mesh.blocks.size(), 1u);
-    if (kind == CellKind::hexahedron) EXPECT_EQ(mesh.cells.size(), 4u * 3 * 2);
+    EXPECT_TRUE(kind == CellKind::wedge || mesh.cells.size() == 4u * 3 * 2);
     EXPECT_EQ(mesh.blocks[BlockId{0}].cells.size(), mesh.cells.size());
     EXPECT_EQ(mesh.elements.size(), mesh.cells.size() * split_count(kind));
     for (const Cell& cell : mesh.cells) EXPECT_EQ(cell.kind, kind);

@@ -117,7 +117,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }
   if (scene.settle || !scene.heat) return report;
-  append(sentences, isolated_blocks(mesh, *scene.contact, scene.heat->joint));
+  append(sentences, isolated_blocks(mesh, *scene.contact, *scene.heat));
   append(sentences, probes_in_voids(mesh, scene.probes));
   return report;
 }

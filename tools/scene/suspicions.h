@@ -26,10 +26,10 @@ Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh);
 // Free blocks with no fixed block below them, as gravity goes.
 Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity);
 
-// Blocks that no heat can reach through a contact.
+// Blocks that no heat can reach through a contact, in bodies that no boundary or source heats.
 template <int dim>
 Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
-                          const thermal::JointOptions& joint);
+                          const thermal::HeatOptions& heat);
 
 // Probes that no block holds.
 template <int dim>

@@ -132,8 +132,12 @@ Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d&
 
 template <int dim>
 Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
-                          const thermal::JointOptions& joint) {
+                          const thermal::HeatOptions& heat) {
   if (mesh.blocks.size() < 2) return {};
+  const thermal::JointOptions& joint = heat.joint;
+  Table<BodyId, char> heated(mesh.bodies.size(), 0);
+  for (const auto& boundary : heat.boundaries) heated[boundary.region.body] = 1;
+  for (const auto& source : heat.sources) heated[source.region.body] = 1;
   Table<BlockId, bool> touched(mesh.blocks.size(), false);
   const auto search = thermal::contact_search(joint, mesh.bodies, options);
   for (const auto& contact : contact::find_contacts(mesh, search).contacts) {
@@ -145,8 +149,9 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::Conta
   Table<BodyId, std::size_t> alone(mesh.bodies.size());
   Table<BodyId, std::size_t> blocks(mesh.bodies.size());
   for (const BlockId block : mesh.blocks.ids()) {
-    ++blocks[mesh.blocks[block].body];
-    if (!touched[block]) ++alone[mesh.blocks[block].body];
+    const BodyId body = mesh.blocks[block].body;
+    ++blocks[body];
+    if (!touched[block] && heated[body] == 0) ++alone[body];
   }
   Sentences sentences;
   for (const BodyId body : mesh.bodies.ids()) {
@@ -156,7 +161,7 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::Conta
   }
   return sentences;
 }
-template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactOptions&, const thermal::JointOptions&);
-template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactOptions&, const thermal::JointOptions&);
+template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactOptions&, const thermal::HeatOptions&);
+template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactOptions&, const thermal::HeatOptions&);
 
 }  // namespace scree
