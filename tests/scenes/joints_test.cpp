@@ -76,5 +76,17 @@ TEST(BarsOfAConductance, RefuseAJointThatCarriesNothing) {
   EXPECT_EQ(kept.first, 0);
 }
 
+TEST(JointedCubes, ConductAsTheClosedFormSays) {
+  const SceneRun run = test::run("jointed_cubes", fresh_directory("jointed_cubes"));
+  ASSERT_EQ(run.exit_status, 0);
+  const auto& found = run.summary["effective_conductivity"];
+  const double expected = 3 / (1 + 3 / (60 * 0.1));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(found["along"][axis].get<double>(), expected, 0.005 * expected);
+    EXPECT_GT(found["upper"][axis][axis], found["along"][axis]);
+  }
+  EXPECT_NEAR(found["solid_fraction"].get<double>(), 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace scree::test
