@@ -26,6 +26,7 @@ function(scree_library target library header)
 endfunction()
 scree_library(gmsh_api gmsh gmsh.h)
 scree_library(cholmod_api cholmod cholmod.h suitesparse)
+scree_library(umfpack_api umfpack umfpack.h suitesparse)
 scree_library(hdf5_cpp hdf5_serial_cpp H5Cpp.h hdf5/serial)
 target_link_libraries(hdf5_cpp INTERFACE PkgConfig::hdf5)
 

@@ -7,10 +7,13 @@
 // with S_a the area vector opposite to corner a both sums collapse:
 //   q = k/(dim V) sum_a S_a T_a,    Q_a = -q . S_a / dim = -sum_b K_ab T_b,    K_ab = k S_a . S_b / (dim^2 V),
 // which is the linear finite element k V grad N_a . grad N_b. A test evaluates (4) and (5) as printed beside it.
+// A conductivity that depends on direction is a symmetric tensor k in the same places: q = k/(dim V) sum_a S_a T_a, K_ab = S_a
+// . k S_b / (dim^2 V).
 #pragma once
 
 #include <Eigen/Core>
 
+#include "engine/base/material.h"
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::thermal {
@@ -26,6 +29,13 @@ template <int dim>
 using CornerMatrix = Eigen::Matrix<double, dim + 1, dim + 1>;
 
 template <int dim>
+using Tensor = Eigen::Matrix<double, dim, dim>;
+
+// Conductivity of a block over its material's value: R diag(ratio) R^T, R the principal axes, which turn with the block [-].
+template <int dim>
+Tensor<dim> conductivity_ratios(const Conductivity& conductivity, const mesh::Block& block);
+
+template <int dim>
 Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes);  // [m]
 
 // Outward area vectors S_a of the faces opposite to each corner [m2] (2-D: times unit thickness).
@@ -34,16 +44,16 @@ Corners<dim> opposite_areas(const Corners<dim>& points);
 
 // q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K].
 template <int dim>
-Point<dim> element_flux(const Corners<dim>& points, double conductivity, const CornerValues<dim>& temperatures);
+Point<dim> element_flux(const Corners<dim>& points, const Tensor<dim>& conductivity, const CornerValues<dim>& temperatures);
 
 // K_ab of eqs. (4)-(5) [W/K]: exactly symmetric, and each diagonal is minus the sum of its row.
 template <int dim>
-CornerMatrix<dim> element_conductance(const Corners<dim>& points, double conductivity);
+CornerMatrix<dim> element_conductance(const Corners<dim>& points, const Tensor<dim>& conductivity);
 
-// A corner's share of the element's capacity, rho C V_n of eq. (7) [J/K]; rho C [J/m3/K].
+// A corner's share of the element's mass, rho V_n of eq. (7) [kg]; density in kg/m3.
 template <int dim>
-double corner_capacity(double volume, double volumetric_heat) {
-  return volumetric_heat * volume / (dim + 1);
+double corner_mass(double volume, double density) {
+  return density * volume / (dim + 1);
 }
 
 }  // namespace scree::thermal

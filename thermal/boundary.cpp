@@ -1,6 +1,8 @@
 #include "thermal/boundary.h"
 
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +12,9 @@
 #include "thermal/problems.h"
 
 namespace scree::thermal {
+
+Region::Region(BodyId of_body, std::optional<Aabb<3>> in, std::optional<std::string> on)
+    : body(of_body), within(std::move(in)), surface(std::move(on)) {}
 
 namespace {
 
@@ -24,8 +29,8 @@ std::string text(const Eigen::Matrix<double, dim, 1>& point) {
 template <int dim>
 class Applier {
  public:
-  Applier(const mesh::BlockMesh<dim>& mesh, HeatModel& model)
-      : mesh_(mesh), model_(model), faces_(mesh::weighted_faces(mesh)), blocks_of_(mesh.bodies.size()) {
+  Applier(const mesh::BlockMesh<dim>& mesh, double until, HeatModel& model)
+      : mesh_(mesh), model_(model), until_(until), faces_(mesh::weighted_faces(mesh)), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
     Aabb<dim> extent;
     for (const Point<dim>& point : mesh.nodes) extent.extend(point);
@@ -35,48 +40,62 @@ class Applier {
   void apply(const Boundary& boundary) {
     if (boundary.region.surface && !mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface)) {
       no_such_surface(boundary);
-    } else if (const auto* fixed = std::get_if<FixedTemperature>(&boundary.condition)) {
+      return;
+    }
+    if (const auto* fixed = std::get_if<FixedTemperature>(&boundary.condition)) {
       fix(boundary, fixed->temperature);
-    } else if (const auto* flux = std::get_if<HeatFlux>(&boundary.condition)) {
-      heat_faces(boundary, flux->flux, 0);
+      return;
+    }
+    NodeShares faces = face_shares(boundary);
+    if (const auto* flux = std::get_if<HeatFlux>(&boundary.condition)) {
+      model_.loads.push_back({boundary.name, std::move(faces), flux->flux});
+    } else if (const auto* flow = std::get_if<HeatFlow>(&boundary.condition)) {
+      spread(boundary, flow->flow, std::move(faces));
+    } else if (const auto* convection = std::get_if<Convection>(&boundary.condition)) {
+      model_.exchanges.push_back(
+          {boundary.name, std::move(faces), Exchange::Law::convection, convection->coefficient, convection->surroundings});
     } else {
-      heat_faces(boundary, 0, std::get<HeatFlow>(boundary.condition).flow);
+      const auto& radiation = std::get<Radiation>(boundary.condition);
+      model_.exchanges.push_back(
+          {boundary.name, std::move(faces), Exchange::Law::radiation, radiation.emissivity, radiation.surroundings});
     }
   }
 
   void apply(const Source& source) {
-    double total = 0;
-    bool found = false;
+    SharesByNode shares;
     for (const BlockId b : blocks_of_[source.region.body]) {
       mesh::for_each_simplex(mesh_, mesh_.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
         Point<dim> centre = Point<dim>::Zero();
         for (const NodeId node : nodes) centre += mesh_.nodes[node] / (dim + 1);
         if (!inside(source.region, centre)) return;
-        const double share = weight * source.power * mesh::simplex_volume<dim>(mesh_, nodes) / (dim + 1);
-        for (const NodeId node : nodes) model_.load[node.value()] += share;
-        total += share * (dim + 1);
-        found = true;
+        const double share = weight * mesh::simplex_volume<dim>(mesh_, nodes) / (dim + 1);
+        for (const NodeId node : nodes) shares[node] += share;
       });
     }
-    if (!found) nothing_there(source.where, "heat.sources", source.name, source.region, "at least one element's centre");
-    model_.applied_flows.emplace_back(source.name, total);
+    if (shares.empty())
+      nothing_there(source.where, "heat.sources", source.name, source.region, "at least one element's centre");
+    model_.loads.push_back({source.name, listed(shares), source.power});
   }
 
   void finish() {
     if (!problems_.empty()) throw InputError(problems_);
-    model_.fixed_temperature.resize(static_cast<Eigen::Index>(held_.size()));
-    for (const auto& [node, by] : held_) {
-      model_.fixed_temperature[static_cast<Eigen::Index>(model_.fixed_nodes.size())] = by.temperature;
+    for (const auto& [node, hold] : held_) {
       model_.fixed_nodes.push_back(node);
-      model_.fixed_boundary.push_back(by.boundary);
+      model_.fixed_hold.push_back(hold);
     }
   }
 
  private:
-  struct Hold {
-    double temperature;
-    int boundary;
-  };
+  using SharesByNode = std::map<NodeId, double>;
+
+  static NodeShares listed(const SharesByNode& by_node) {
+    NodeShares list;
+    for (const auto& [node, share] : by_node) {
+      list.nodes.push_back(node);
+      list.shares.push_back(share);
+    }
+    return list;
+  }
 
   bool inside(const Region& region, const Point<dim>& point) const {
     if (!region.within) return true;
@@ -109,28 +128,42 @@ class Applier {
     return nodes;
   }
 
-  void fix(const Boundary& boundary, double temperature) {
-    const int index = static_cast<int>(model_.boundary_names.size());
-    model_.boundary_names.push_back(boundary.name);
+  void fix(const Boundary& boundary, const Function& temperature) {
+    const int index = static_cast<int>(model_.holds.size());
+    model_.holds.push_back({boundary.name, temperature});
     const std::vector<NodeId> nodes = nodes_in(boundary.region);
     bool conflict = false;
     for (const NodeId node : nodes) {
-      const Hold& held = held_.try_emplace(node, Hold{temperature, index}).first->second;
-      if (held.temperature == temperature || conflict) continue;
+      const int holder = held_.try_emplace(node, index).first->second;
+      const auto time = conflict || holder == index ? std::nullopt : disagreement(holder, temperature, node);
+      if (!time) continue;
       conflict = true;
-      const std::string rule = fmt::format("\"{}\" holds the node at {} m at {:g} K", model_.boundary_names[held.boundary],
-                                           text<dim>(mesh_.nodes[node]), held.temperature);
-      problems_.push_back(problem("heat.boundaries: " + boundary.name, fmt::format("{:g} K", temperature), rule,
-                                  "Make one of the two regions smaller, so that no node is in both"));
+      const Hold& hold = model_.holds[holder];
+      const std::string rule = fmt::format("\"{}\" holds the node at {} m at {:g} K", hold.name, text<dim>(mesh_.nodes[node]),
+                                           hold.temperature(place(node), *time));
+      problems_.push_back(problem("heat.boundaries: " + boundary.name,
+                                  fmt::format("{:g} K{}", temperature(place(node), *time),
+                                              *time > 0 ? fmt::format(" at {:g} s", *time) : std::string()),
+                                  rule, "Make one of the two regions smaller, so that no node is in both"));
       problems_.back().where = boundary.where;
     }
     if (nodes.empty()) nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region, "at least one node");
   }
 
-  // Adds flux times area to the faces in the region, and spreads `flow` over them by area.
-  void heat_faces(const Boundary& boundary, double flux, double flow) {
-    std::vector<std::pair<FaceId, double>> heated;
-    double area = 0;
+  // A time at which the two do not hold the node at the same temperature; functions are compared at three times of the run.
+  std::optional<double> disagreement(int holder, const Function& temperature, NodeId node) const {
+    for (const double share : {0.0, 0.37, 1.0}) {
+      const double time = share * until_;
+      if (model_.holds[holder].temperature(place(node), time) != temperature(place(node), time)) return time;
+    }
+    return std::nullopt;
+  }
+
+  Eigen::Vector3d place(NodeId node) const { return model_.places.col(node.value()); }
+
+  // The share of each node in the area of the region's faces.
+  NodeShares face_shares(const Boundary& boundary) {
+    SharesByNode shares;
     std::optional<SurfaceId> surface;
     if (boundary.region.surface) surface = mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface);
     for (const FaceId f : faces_.ids()) {
@@ -138,19 +171,25 @@ class Applier {
       bool in = !surface || mesh::on_surface<dim>(mesh_, faces_[f].nodes, *surface);
       for (const NodeId node : faces_[f].nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
       if (!in) continue;
-      heated.emplace_back(f, faces_[f].weight * mesh::face_area<dim>(mesh_, faces_[f]));
-      area += heated.back().second;
+      const double share = faces_[f].weight * mesh::face_area<dim>(mesh_, faces_[f]) / dim;
+      for (const NodeId node : faces_[f].nodes) shares[node] += share;
     }
-    if (heated.empty()) {
+    if (shares.empty()) {
       nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region,
                     "at least one boundary face with all its corners");
-      return;
     }
-    const double per_area = flux + flow / area;
-    for (const auto& [f, face_size] : heated) {
-      for (const NodeId node : faces_[f].nodes) model_.load[node.value()] += per_area * face_size / dim;
+    return listed(shares);
+  }
+
+  void spread(const Boundary& boundary, const Function& flow, NodeShares faces) {
+    if (flow.varies_in_place()) {
+      problems_.push_back(problem("heat.boundaries: " + boundary.name, "a flow that depends on place",
+                                  "must be one total, W, at any time", "Give a flux (W/m2) instead"));
+      problems_.back().where = boundary.where;
     }
-    model_.applied_flows.emplace_back(boundary.name, per_area * area);
+    const double area = std::accumulate(faces.shares.begin(), faces.shares.end(), 0.0);
+    for (double& share : faces.shares) share /= area;
+    model_.loads.push_back({boundary.name, std::move(faces), flow});
   }
 
   void nothing_there(const SourceLocation& where, const std::string& list, const std::string& name, const Region& region,
@@ -176,10 +215,11 @@ class Applier {
 
   const mesh::BlockMesh<dim>& mesh_;
   HeatModel& model_;
+  double until_;  // end of the run [s]
   Table<FaceId, mesh::WeightedFace<dim>> faces_;
   Table<BodyId, std::vector<BlockId>> blocks_of_;
-  double rounding_ = 0;  // [m]
-  std::map<NodeId, Hold> held_;
+  double rounding_ = 0;         // [m]
+  std::map<NodeId, int> held_;  // which of the model's holds
   std::vector<Problem> problems_;
 };
 
@@ -187,7 +227,7 @@ class Applier {
 
 template <int dim>
 void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model) {
-  Applier<dim> applier(mesh, model);
+  Applier<dim> applier(mesh, options.time.until, model);
   for (const Boundary& boundary : options.boundaries) applier.apply(boundary);
   for (const Source& source : options.sources) applier.apply(source);
   applier.finish();

@@ -1,11 +1,14 @@
-// Where heat comes in: fixed temperatures, fluxes and flows on faces, sources in elements.
+// Where heat comes in: fixed temperatures, fluxes, flows, convection and radiation on faces, sources in elements.
+//
+// A face gives each of its corners the same share of its area, an element each corner of its volume; functions of place are
+// taken at the nodes.
 #pragma once
 
 #include "thermal/heat_model.h"
 
 namespace scree::thermal {
 
-// Fills in the loads, the fixed nodes and the names of `model`, whose vectors have their size already. Throws InputError, all
+// Fills in the holds, loads and exchanges of `model`, which has its places and sizes already. Throws InputError, all
 // problems in one, for a region that holds nothing and for a node that two boundaries hold at different temperatures.
 template <int dim>
 void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model);

@@ -1,5 +1,7 @@
 #include "thermal/contact_conduction.h"
 
+#include "thermal/block_conduction.h"
+
 namespace scree::thermal {
 
 template <int dim>
@@ -40,7 +42,8 @@ Point<dim> contact_normal(const mesh::BlockMesh<dim>& mesh, const contact::Conta
 template <int dim>
 Point<dim> conducted(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block,
                      const Point<dim>& normal) {
-  return materials[mesh.bodies[mesh.blocks[block].body].material].conductivity.value().value.constant().value() * normal;
+  const Conductivity& conductivity = *materials[mesh.bodies[mesh.blocks[block].body].material].conductivity;
+  return conductivity.value(reference_temperature) * conductivity_ratios<dim>(conductivity, mesh.blocks[block]) * normal;
 }
 
 template <int dim>

@@ -6,8 +6,8 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "thermal/free_nodes.h"
+#include "thermal/heat_solver.h"
 #include "thermal/problems.h"
-#include "thermal/shifted_solver.h"
 
 namespace scree::thermal {
 
@@ -20,13 +20,18 @@ class Sample {
   Sample(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatModel& model,
          const Aabb<dim>& window)
       : mesh_(mesh), materials_(materials), model_(model), window_(window), rounding_(1e-9 * window.diagonal().norm()) {
-    model_.fixed_boundary.clear();
-    model_.boundary_names.clear();
-    model_.applied_flows.clear();
+    model_.fixed_hold.clear();
+    model_.holds.clear();
+    model_.loads.clear();
+    model_.exchanges.clear();
     for (const ElementId e : mesh.elements.ids()) {
       Point<dim> centre = Point<dim>::Zero();
       for (const NodeId node : mesh.elements[e]) centre += mesh.nodes[node] / (dim + 1);
       if (window.contains(centre)) inside_.push_back(e);
+    }
+    if (model.varying) {
+      throw InputError(problem("heat.effective_conductivity", "a material whose properties depend on temperature",
+                               "must have constant properties", "Give the values at the temperature of interest"));
     }
     if (!inside_.empty()) return;
     throw InputError(problem("heat.effective_conductivity", "a window", "must hold the centre of at least one element"));
@@ -84,8 +89,10 @@ class Sample {
       model_.fixed_nodes.push_back(node);
     }
     free_.emplace(model_);
-    solver_.emplace(Eigen::VectorXd::Zero(free_->size()), free_->lower_block(model_.conductance));
-    solver_->prepare(1);
+    solver_.emplace(model_, *free_);
+    Linearised no_loss;
+    no_loss.loss = Eigen::VectorXd::Zero(model_.capacity.size());
+    solver_->prepare_steady(no_loss);
   }
 
   // Steady temperatures [K] for the values of the held nodes and the loads of all [W].
@@ -117,7 +124,7 @@ class Sample {
       }
       return false;
     });
-    const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(model_.load.size());
+    const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(model_.capacity.size());
     Tensor tensor;
     for (int axis = 0; axis < dim; ++axis) tensor.col(axis) = -mean_flux(solve(coordinates(axis), no_load));
     return tensor;
@@ -127,7 +134,7 @@ class Sample {
     hold([&](NodeId node) { return beyond(node, axis); });
     const double length = window_.sizes()[axis];
     Eigen::VectorXd plates = coordinates(axis).cwiseMax(0).cwiseMin(length);
-    return -mean_flux(solve(plates, Eigen::VectorXd::Zero(model_.load.size())))[axis];
+    return -mean_flux(solve(plates, Eigen::VectorXd::Zero(model_.capacity.size())))[axis];
   }
 
   struct Side {
@@ -168,7 +175,7 @@ class Sample {
     hold([](NodeId) { return false; });
     Tensor resistivity = Tensor::Zero();  // [m K/W]
     for (int axis = 0; axis < dim; ++axis) {
-      Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.load.size());
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.capacity.size());
       for (const Side& side : *found) {
         if (side.axis != axis) continue;
         for (const NodeId node : faces[side.face].nodes) load[node.value()] -= side.sign * side.area / dim;
@@ -190,7 +197,7 @@ class Sample {
   double rounding_;  // [m]
   std::vector<ElementId> inside_;
   std::optional<FreeNodes> free_;
-  std::optional<ShiftedSolver> solver_;
+  std::optional<HeatSolver> solver_;
 };
 
 }  // namespace

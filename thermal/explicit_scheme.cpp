@@ -1,11 +1,15 @@
 // The paper's scheme, eqs. (7) and (8): T' = T + dt C^-1 (Q - K T), forward Euler. Stable up to dt = 2/lambda_max of C^-1 K.
 // The companion for the error estimate is the second-order Taylor series, stable over the same interval; there the estimate is
 // never below the true error of a step, and at most 1.8 times it.
+//
+// Properties and coefficients must not change, so that the stable step holds for the whole run; loads, temperatures of
+// boundaries and of surroundings may.
 #include <cmath>
 #include <limits>
 
-#include "thermal/flow_network.h"
+#include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
+#include "thermal/problems.h"
 #include "thermal/time_scheme.h"
 
 namespace scree::thermal {
@@ -15,46 +19,73 @@ namespace {
 class ExplicitScheme : public TimeScheme {
  public:
   explicit ExplicitScheme(const HeatModel& model)
-      : model_(model), inverse_(model.capacity.cwiseInverse()), flows_(model.conductance) {
+      : model_(model),
+        inverse_(model.capacity.cwiseInverse()),
+        drives_(model),
+        balance_(model),
+        linear_(balance_.linearised(model.initial, drives_.at(0))) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
   }
 
-  Step step(const Eigen::VectorXd& temperature, const Eigen::VectorXd& error, double length) override {
-    const Eigen::VectorXd heating = model_.load - flows_.leaving(temperature);
+  Step step(const Instant& from, double length) override {
+    const Eigen::VectorXd heating = balance_.heating(from.temperature, drives_.at(from.time));
     const Eigen::VectorXd slope = inverse_.cwiseProduct(heating);
-    const Eigen::VectorXd error_slope = -inverse_.cwiseProduct(flows_.leaving(error));
-    // dt^2/2 of the companion's second derivative is what Euler leaves out.
-    const Eigen::VectorXd second = -inverse_.cwiseProduct(flows_.leaving(slope - error_slope));
-    const Eigen::VectorXd local = -0.5 * length * length * second;
-    return {length * slope, error + length * error_slope + local, -heating, local.lpNorm<Eigen::Infinity>()};
+    const Eigen::VectorXd error_slope = -inverse_.cwiseProduct(balance_.lost(from.error, linear_));
+    Step result;
+    result.change = held(model_, from.temperature + length * slope, drives_.at(from.time + length)) - from.temperature;
+    // h^2/2 of the companion's second derivative is what Euler leaves out: that of the drive, and that of the temperatures.
+    const Eigen::VectorXd driven = drives_.vary() ? drive_change(from, length) : Eigen::VectorXd::Zero(slope.size()).eval();
+    const Eigen::VectorXd moved = result.change - length * error_slope;
+    const Eigen::VectorXd second = inverse_.cwiseProduct(driven - balance_.lost(moved, linear_));
+    const Eigen::VectorXd local = -0.5 * length * second;
+    result.error = from.error + length * error_slope + local;
+    result.stages = {{1, from.time, from.temperature}};
+    result.local_error = local.lpNorm<Eigen::Infinity>();
+    return result;
   }
 
   // Steps are bounded by stability and given by the user, not chosen from an error.
-  double first_step(const Eigen::VectorXd&, double) override { return std::numeric_limits<double>::infinity(); }
+  double first_step(const Instant&, double) override { return std::numeric_limits<double>::infinity(); }
 
   [[nodiscard]] double safety() const override { return 1; }
   [[nodiscard]] std::string name() const override { return "explicit Euler, eq. (8), fixed steps"; }
 
  private:
+  // How much F changes over the step if the temperatures do not [W].
+  Eigen::VectorXd drive_change(const Instant& from, double length) {
+    const Drive& before = drives_.at(from.time);
+    const Drive& after = drives_.at(from.time + length);
+    return balance_.heating(from.temperature, after) - balance_.heating(from.temperature, before);
+  }
+
   const HeatModel& model_;
   Eigen::VectorXd inverse_;  // of the capacity, 0 for a fixed node [K/J]
-  FlowNetwork flows_;
+  Drives drives_;
+  HeatBalance balance_;
+  Linearised linear_;  // the same at all times
 };
 
 }  // namespace
 
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model) {
+  if (!has_constant_properties(model)) {
+    throw InputError(problem("heat.integrator", "explicit_euler",
+                             "must not be asked to do radiation, or properties or coefficients that change",
+                             "Use the implicit integrator"));
+  }
   return std::make_unique<ExplicitScheme>(model);
 }
 
 StableStep stable_step(const HeatModel& model) {
   std::vector<char> fixed(static_cast<std::size_t>(model.capacity.size()), 0);
   for (const NodeId node : model.fixed_nodes) fixed[node.index()] = 1;
+  Drives drives(model);
+  const Eigen::VectorXd loss = HeatBalance(model).linearised(model.initial, drives.at(0)).loss;
   StableStep limit{std::numeric_limits<double>::infinity(), NodeId{}};
   for (std::size_t node = 0; node < fixed.size(); ++node) {
     if (fixed[node] != 0) continue;
-    double row = 0;  // the matrix is symmetric: its column will do
     const auto column = static_cast<Eigen::Index>(node);
+    double row = loss[column];  // the matrix is symmetric: its column will do
     for (SparseMatrix::InnerIterator entry(model.conductance, column); entry; ++entry) {
       if (fixed[entry.row()] == 0) row += std::abs(entry.value());
     }

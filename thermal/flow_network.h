@@ -16,6 +16,8 @@ class FlowNetwork {
   // K T: the heat that leaves each node [W].
   [[nodiscard]] Eigen::VectorXd leaving(const Eigen::VectorXd& temperature) const;
 
+  [[nodiscard]] bool empty() const { return links_.empty(); }
+
  private:
   struct Link {
     int first;

@@ -23,19 +23,23 @@ Eigen::MatrixXd FreeNodes::scatter(const Eigen::MatrixXd& free) const {
   return all;
 }
 
-SparseMatrix FreeNodes::lower_block(const SparseMatrix& matrix) const {
+SparseMatrix FreeNodes::block(const SparseMatrix& matrix) const {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + nodes_.size());
+  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) + nodes_.size());
   for (Eigen::Index column = 0; column < size(); ++column) {
     entries.emplace_back(static_cast<int>(column), static_cast<int>(column), 0.0);
     for (SparseMatrix::InnerIterator entry(matrix, nodes_[column]); entry; ++entry) {
       const Eigen::Index row = unknowns_[entry.row()];
-      if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), entry.value());
+      if (row >= 0) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), entry.value());
     }
   }
   SparseMatrix block(size(), size());
   block.setFromTriplets(entries.begin(), entries.end());
   return block;
+}
+
+SparseMatrix FreeNodes::lower_block(const SparseMatrix& matrix) const {
+  return block(matrix).triangularView<Eigen::Lower>();
 }
 
 }  // namespace scree::thermal

@@ -16,7 +16,8 @@ class FreeNodes {
   [[nodiscard]] Eigen::MatrixXd gather(const Eigen::MatrixXd& all) const;
   [[nodiscard]] Eigen::MatrixXd scatter(const Eigen::MatrixXd& free) const;
 
-  // The lower triangle of `matrix` between free nodes; every diagonal entry is present.
+  // `matrix` between free nodes, all of it or its lower triangle; every diagonal entry is present.
+  [[nodiscard]] SparseMatrix block(const SparseMatrix& matrix) const;
   [[nodiscard]] SparseMatrix lower_block(const SparseMatrix& matrix) const;
 
  private:

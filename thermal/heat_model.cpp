@@ -1,5 +1,6 @@
 #include "thermal/heat_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -64,55 +65,133 @@ void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mate
       missing.need(value_of(materials[id].conductivity), key + ".conductivity", "W/m/K");
       missing.need(materials[id].specific_heat, key + ".specific_heat", "J/kg/K");
     }
-    if (body.index() >= options.initial_temperature.size() || !std::isfinite(options.initial_temperature[body])) {
+    if (!options.initial_field && body.index() >= options.initial_temperature.size()) {
       missing.add("heat.initial", "missing for body " + name, "must give every body a temperature, K", "");
     }
+  }
+  if (options.initial_field && options.initial_field->size() != static_cast<Eigen::Index>(mesh.nodes.size())) {
+    missing.add("heat.initial", fmt::format("a field of {} nodes", options.initial_field->size()),
+                fmt::format("must have a temperature for each of the {} nodes", mesh.nodes.size()), "");
   }
   missing.raise();
 }
 
+template <int dim>
+void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model) {
+  for (const NodeId node : mesh.nodes.ids()) {
+    const auto row = static_cast<Eigen::Index>(node.index());
+    const Eigen::Vector3d place = model.places.col(row);
+    model.initial[row] = options.initial_field ? (*options.initial_field)[row]
+                                               : options.initial_temperature[mesh.blocks[model.blocks[node]].body](place, 0);
+    if (std::isfinite(model.initial[row]) && model.initial[row] >= 0) continue;
+    throw InputError(problem("heat.initial",
+                             fmt::format("{:g} at ({:g}, {:g}, {:g}) m", model.initial[row], place.x(), place.y(), place.z()),
+                             "must be a temperature of 0 K or more"));
+  }
+}
+
+bool varies(const Conductivity& conductivity) {
+  return !conductivity.value.constant();
+}
+
+// What properties that depend on temperature need, if there are any.
+template <int dim>
+void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
+  bool any = false;
+  for (const mesh::Body& body : mesh.bodies) {
+    const Material& material = materials[body.material];
+    any = any || varies(*material.conductivity) || !material.specific_heat->constant();
+  }
+  if (!any) return;
+  VaryingProperties& varying = model.varying.emplace();
+  varying.mass = Eigen::VectorXd::Zero(model.capacity.size());
+  for (const Material& material : materials) {  // one that no body is made of may lack them
+    varying.specific_heat.push_back(material.specific_heat.value_or(Curve()));
+    varying.conductivity.push_back(material.conductivity ? material.conductivity->value : Curve());
+  }
+  varying.material = Table<NodeId, int>(mesh.nodes.size());
+  for (const NodeId node : mesh.nodes.ids()) {
+    varying.material[node] = static_cast<int>(mesh.bodies[mesh.blocks[model.blocks[node]].body].material.index());
+  }
+}
+
+struct Entries {
+  Triplets conductance;       // [W/K]
+  Triplets unit_conductance;  // [m]
+};
+
 // Eqs. (4), (5) and (7) of every simplex, by its weight.
 template <int dim>
 void add_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model,
-                Triplets& entries) {
+                Entries& entries) {
   for (const BlockId b : mesh.blocks.ids()) {
     const Material& material = material_of(mesh, materials, b);
-    const double volumetric_heat = *material.density * material.specific_heat->constant().value();
+    const double value = material.conductivity->value.constant().value_or(1);
+    const Tensor<dim> conductivity = value * conductivity_ratios<dim>(*material.conductivity, mesh.blocks[b]);
+    Triplets& list = varies(*material.conductivity) ? entries.unit_conductance : entries.conductance;
     mesh::for_each_simplex(mesh, mesh.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
-      const CornerMatrix<dim> conductance =
-          weight * element_conductance<dim>(corner_points<dim>(mesh, nodes), material.conductivity->value.constant().value());
-      const double capacity = weight * corner_capacity<dim>(mesh::simplex_volume<dim>(mesh, nodes), volumetric_heat);
+      const CornerMatrix<dim> conductance = weight * element_conductance<dim>(corner_points<dim>(mesh, nodes), conductivity);
+      const double mass = weight * corner_mass<dim>(mesh::simplex_volume<dim>(mesh, nodes), *material.density);
       for (int i = 0; i <= dim; ++i) {
-        model.capacity[nodes[i].value()] += capacity;
-        for (int j = 0; j <= dim; ++j) entries.emplace_back(nodes[i].value(), nodes[j].value(), conductance(i, j));
+        const auto node = nodes[i].value();
+        model.capacity[node] += mass * (*material.specific_heat)(model.initial[node]);
+        if (model.varying) model.varying->mass[node] += mass;
+        for (int j = 0; j <= dim; ++j) list.emplace_back(node, nodes[j].value(), conductance(i, j));
       }
     });
   }
 }
 
-template <int dim>
-Point<dim> simplex_flux(const mesh::BlockMesh<dim>& mesh, const Material& material, const mesh::Simplex<dim>& nodes,
-                        const Eigen::VectorXd& temperature) {
-  CornerValues<dim> corner;
-  for (int i = 0; i <= dim; ++i) corner[i] = temperature[nodes[i].value()];
-  return element_flux<dim>(corner_points<dim>(mesh, nodes), material.conductivity->value.constant().value(), corner);
+SparseMatrix matrix_of(const Triplets& entries, Eigen::Index size) {
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
-// Over both splits, by volume.
+// Flux in one block.
 template <int dim>
-Point<dim> mean_flux(const mesh::BlockMesh<dim>& mesh, const Material& material, CellId cell,
-                     const Eigen::VectorXd& temperature) {
-  Point<dim> sum = Point<dim>::Zero();
-  double volume = 0;
-  for (const mesh::Simplex<dim>& nodes : mesh::both_splits(mesh, cell)) {
-    const double part = mesh::simplex_volume<dim>(mesh, nodes);
-    sum += part * simplex_flux<dim>(mesh, material, nodes, temperature);
-    volume += part;
+class BlockFlux {
+ public:
+  BlockFlux(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block)
+      : mesh_(mesh),
+        value_(material_of(mesh, materials, block).conductivity->value),
+        tensor_(value_.constant().value_or(1) *
+                conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block])) {}
+
+  Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
+    CornerValues<dim> corner;  // Kirchhoff's Phi where the conductivity depends on temperature (heat_balance.h)
+    for (int i = 0; i <= dim; ++i) {
+      const double at = temperature[nodes[i].value()];
+      corner[i] = value_.constant() ? at : value_.integral(at);
+    }
+    return element_flux<dim>(corner_points<dim>(mesh_, nodes), tensor_, corner);
   }
-  return sum / volume;
-}
+
+  // Over both splits, by volume.
+  Point<dim> in(CellId cell, const Eigen::VectorXd& temperature) const {
+    Point<dim> sum = Point<dim>::Zero();
+    double volume = 0;
+    for (const mesh::Simplex<dim>& nodes : mesh::both_splits(mesh_, cell)) {
+      const double part = mesh::simplex_volume<dim>(mesh_, nodes);
+      sum += part * in(nodes, temperature);
+      volume += part;
+    }
+    return sum / volume;
+  }
+
+ private:
+  const mesh::BlockMesh<dim>& mesh_;
+  Curve value_;
+  Tensor<dim> tensor_;
+};
 
 }  // namespace
+
+bool has_constant_properties(const HeatModel& model) {
+  return !model.varying && std::all_of(model.exchanges.begin(), model.exchanges.end(), [](const Exchange& exchange) {
+    return exchange.law == Exchange::Law::convection && !exchange.coefficient.varies_in_time();
+  });
+}
 
 template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
@@ -122,21 +201,23 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   HeatModel model;
   model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
   model.capacity = Eigen::VectorXd::Zero(size);
-  model.load = Eigen::VectorXd::Zero(size);
   model.initial.resize(size);
+  model.places = Eigen::Matrix3Xd::Zero(3, size);
+  for (const NodeId node : mesh.nodes.ids()) model.places.col(node.value()).template head<dim>() = mesh.nodes[node];
   for (const BlockId b : mesh.blocks.ids()) {
-    for (const NodeId node : mesh.blocks[b].nodes) {
-      model.blocks[node] = b;
-      model.initial[node.value()] = options.initial_temperature[mesh.blocks[b].body];
-    }
+    for (const NodeId node : mesh.blocks[b].nodes) model.blocks[node] = b;
+    model.bodies.push_back(mesh.blocks[b].body);
   }
+  for (const mesh::Body& body : mesh.bodies) model.body_names.push_back(body.name);
+  set_initial(mesh, options, model);
+  set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
-  Triplets entries;
-  entries.reserve(mesh.elements.size() * (dim + 1) * (dim + 1) + contacts.contacts.size() * 4 * dim * dim);
+  Entries entries;
+  entries.conductance.reserve(mesh.elements.size() * (dim + 1) * (dim + 1) + contacts.contacts.size() * 4 * dim * dim);
   add_blocks(mesh, materials, model, entries);
-  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, entries);
-  model.conductance.resize(size, size);
-  model.conductance.setFromTriplets(entries.begin(), entries.end());
+  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, entries.conductance);
+  model.conductance = matrix_of(entries.conductance, size);
+  if (!entries.unit_conductance.empty()) model.varying->unit_conductance = matrix_of(entries.unit_conductance, size);
   return model;
 }
 
@@ -148,7 +229,8 @@ std::vector<Point<dim>> cell_fluxes(const mesh::BlockMesh<dim>& mesh, const Tabl
   std::vector<Point<dim>> fluxes;
   for (const BlockId b : mesh.blocks.ids()) {
     const mesh::Block& block = mesh.blocks[b];
-    for (const CellId cell : block.cells) fluxes.push_back(mean_flux(mesh, material_of(mesh, materials, b), cell, temperature));
+    const BlockFlux<dim> flux(mesh, materials, b);
+    for (const CellId cell : block.cells) fluxes.push_back(flux.in(cell, temperature));
     if (block.cells.size() > 0) continue;
     for (const ElementId e : block.elements) fluxes.push_back(of_elements[e.index()]);
   }
@@ -160,10 +242,8 @@ std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const T
                                        const Eigen::VectorXd& temperature) {
   std::vector<Point<dim>> fluxes(mesh.elements.size());
   for (const BlockId b : mesh.blocks.ids()) {
-    const Material& material = material_of(mesh, materials, b);
-    for (const ElementId e : mesh.blocks[b].elements) {
-      fluxes[e.index()] = simplex_flux<dim>(mesh, material, mesh.elements[e], temperature);
-    }
+    const BlockFlux<dim> flux(mesh, materials, b);
+    for (const ElementId e : mesh.blocks[b].elements) fluxes[e.index()] = flux.in(mesh.elements[e], temperature);
   }
   return fluxes;
 }

@@ -14,21 +14,68 @@ namespace scree::thermal {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+// Nodes and what each has of a surface or a volume.
+struct NodeShares {
+  std::vector<NodeId> nodes;
+  std::vector<double> shares;  // [m2] or [m3]
+};
+
+// A temperature that nodes are held at.
+struct Hold {
+  std::string name;
+  Function temperature;  // [K]
+};
+
+// Heat that comes in whatever the temperature, Q_app of eq. (6): a flux or a power, times the nodes' shares.
+struct Load {
+  std::string name;
+  NodeShares on;
+  Function density;  // [W/m2] or [W/m3]; a total flow [W] has shares that add up to 1
+};
+
+// Heat exchanged with surroundings: the equations stand in exchange.h.
+struct Exchange {
+  enum class Law { convection, radiation };
+  std::string name;
+  NodeShares on;  // [m2]
+  Law law = Law::convection;
+  Function coefficient;   // h [W/m2/K], or the emissivity [-]
+  Function surroundings;  // [K]
+};
+
+// Properties that depend on the temperature. A node belongs to one block, so it has one material.
+struct VaryingProperties {
+  Table<NodeId, int> material;       // which entry of the two lists
+  std::vector<Curve> specific_heat;  // [J/kg/K]
+  std::vector<Curve> conductivity;   // along the axis whose ratio is 1 [W/m/K]
+  Eigen::VectorXd mass;              // of each node [kg]
+  // Of the blocks whose conductivity depends on temperature, at 1 W/m/K [m]; not in HeatModel::conductance. Empty if there are
+  // none.
+  SparseMatrix unit_conductance;
+};
+
 // One row per node of the mesh, in its order. K is symmetric with zero row sums.
 struct HeatModel {
-  Table<NodeId, BlockId> blocks;      // of each node, for messages
-  Eigen::VectorXd capacity;           // lumped, eq. (7) [J/K]
-  SparseMatrix conductance;           // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
-  Eigen::VectorXd load;               // applied flow and sources, Q_app of eq. (6) [W]
-  Eigen::VectorXd initial;            // [K]
-  std::vector<NodeId> fixed_nodes;    // ascending
-  Eigen::VectorXd fixed_temperature;  // of those nodes [K]
-  // For the ledger, by name: what boundary holds each fixed node (index into `boundary_names`), and the load of each boundary
-  // and source by itself.
-  std::vector<int> fixed_boundary;
-  std::vector<std::string> boundary_names;
-  std::vector<std::pair<std::string, double>> applied_flows;  // [W]
+  Table<NodeId, BlockId> blocks;    // of each node, for messages
+  Eigen::Matrix3Xd places;          // of each node, for functions of place [m]
+  Eigen::VectorXd capacity;         // lumped, eq. (7) [J/K]
+  SparseMatrix conductance;         // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
+  Eigen::VectorXd initial;          // [K]
+  std::vector<NodeId> fixed_nodes;  // ascending
+  std::vector<int> fixed_hold;      // which of `holds` holds each of them
+  // What acts from outside, each an entry of the ledger.
+  std::vector<Hold> holds;
+  std::vector<Load> loads;
+  std::vector<Exchange> exchanges;
+  // Nothing if no property depends on temperature; `capacity` is that of the initial temperatures otherwise.
+  std::optional<VaryingProperties> varying;
+  // For messages.
+  Table<BlockId, BodyId> bodies;
+  Table<BodyId, std::string> body_names;
 };
+
+// Whether F(T, t) is linear in T with coefficients that do not change: what the linear schemes need.
+bool has_constant_properties(const HeatModel& model);
 
 // Throws InputError for a block without conductivity, specific heat, density or initial temperature, and for a boundary or
 // source whose region holds nothing.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/check.h"
+#include "engine/base/function.h"
 #include "engine/base/geometry.h"
 #include "engine/base/ids.h"
 #include "thermal/joint_options.h"
@@ -15,32 +16,47 @@ namespace scree::thermal {
 
 // Where on a body something holds: everywhere, or only inside an axis-aligned box of space, on a surface, or both.
 struct Region {
+  Region() = default;
+  // Not inline: GCC 12 takes the clean-up of a temporary for a use of uninitialised strings.
+  Region(BodyId of_body, std::optional<Aabb<3>> in, std::optional<std::string> on = std::nullopt);
+
   BodyId body;
   // [m]; includes its faces, with a billionth of the mesh's extent for rounding; 2-D ignores z.
   std::optional<Aabb<3>> within;
   std::optional<std::string> surface{};  // of the body, by its name; boundaries only
 };
 
+// All are functions of place [m] and time [s]; on a face, of its corners' places.
 struct FixedTemperature {
-  double temperature = 0;  // [K], at every node in the region; inner ones too, without a surface
+  Function temperature = 0.0;  // [K], at every node in the region; inner ones too, without a surface
 };
 struct HeatFlux {
-  double flux = 0;  // [W/m2], into the body, on every boundary face whose corners are all in the region
+  Function flux = 0.0;  // [W/m2], into the body, on every boundary face whose corners are all in the region
 };
 struct HeatFlow {
-  double flow = 0;  // [W], total into the body, spread over those faces by area
+  Function flow = 0.0;  // [W], total into the body, spread over those faces by area; must not depend on place
+};
+// On those faces, h (T_s - T) into the body.
+struct Convection {
+  Function coefficient = 0.0;   // h [W/m2/K]
+  Function surroundings = 0.0;  // T_s [K]
+};
+// On those faces, sigma epsilon (T_s^4 - T^4) into the body.
+struct Radiation {
+  Function emissivity = 0.0;    // epsilon, 0 to 1 [-]
+  Function surroundings = 0.0;  // T_s [K]
 };
 
 struct Boundary {
   Region region;
-  std::variant<FixedTemperature, HeatFlux, HeatFlow> condition;
+  std::variant<FixedTemperature, HeatFlux, HeatFlow, Convection, Radiation> condition;
   std::string name;      // how the ledger calls it
   SourceLocation where;  // in the scene, for messages
 };
 
 struct Source {
   Region region;
-  double power = 0;  // [W/m3], in every simplex (of cells: of both splits) whose centre is in the region
+  Function power = 0.0;  // [W/m3], in every simplex (of cells: of both splits) whose centre is in the region
   std::string name;
   SourceLocation where;
 };
@@ -51,6 +67,7 @@ enum class Integrator {
 };
 
 struct TimeOptions {
+  bool steady = false;      // the steady state itself; nothing else here has a use then
   double until = 0;         // [s]
   double tolerance = 0.1;   // largest accepted time error [K]
   double output_every = 0;  // [s]; states are exact at its multiples
@@ -59,7 +76,8 @@ struct TimeOptions {
 };
 
 struct HeatOptions {
-  Table<BodyId, double> initial_temperature;  // [K]
+  Table<BodyId, Function> initial_temperature;   // at t = 0 [K]
+  std::optional<Eigen::VectorXd> initial_field;  // of every node, instead [K]
   std::vector<Boundary> boundaries;
   std::vector<Source> sources;
   JointOptions joint;

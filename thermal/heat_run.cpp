@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "thermal/bookkeeper.h"
 #include "thermal/problems.h"
 #include "thermal/step_grid.h"
-#include "thermal/time_scheme.h"
 
 namespace scree::thermal {
 
@@ -50,42 +50,32 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
   return step;
 }
 
-HeatState start(const HeatModel& model) {
-  HeatState state;
-  state.temperature = model.initial;
-  state.error = Eigen::VectorXd::Zero(model.initial.size());
-  state.ledger.by_boundary.assign(model.boundary_names.size(), 0.0);
-  state.ledger.by_applied.assign(model.applied_flows.size(), 0.0);
-  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
-    const auto node = model.fixed_nodes[i].value();
-    const double heat = model.capacity[node] * (model.fixed_temperature[static_cast<Eigen::Index>(i)] - model.initial[node]);
-    state.temperature[node] = model.fixed_temperature[static_cast<Eigen::Index>(i)];
-    state.ledger.start_jump += heat;
-    state.ledger.turnover += std::abs(heat);
-  }
-  state.ledger.stored = model.capacity.dot(state.temperature - model.initial);
-  return state;
-}
-
 }  // namespace
 
 class HeatRun::Implementation {
  public:
-  Implementation(const HeatModel& model, const TimeOptions& options) : model_(model), options_(options) {
+  Implementation(const HeatModel& model, const TimeOptions& options)
+      : model_(model), options_(options), bookkeeper_(model_), drives_(model_) {
     check_options(options);
     if (options.integrator == Integrator::implicit) {
       scheme_ = make_implicit_scheme(model_);
     } else {
-      explicit_step_ = explicit_step(model_, options);
       scheme_ = make_explicit_scheme(model_);
+      explicit_step_ = explicit_step(model_, options);
     }
-    state_ = start(model_);
+    state_.temperature = held(model_, model_.initial, drives_.at(0));
+    state_.error = Eigen::VectorXd::Zero(model_.initial.size());
+    state_.ledger = bookkeeper_.open(state_.temperature);
+    state_.given.include(model_.initial);
+    include_drive(0);
+    state_.reached.include(state_.temperature);
   }
 
   void resume(HeatState state) {
     const bool fits = state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
                       state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
-                      state.ledger.by_applied.size() == state_.ledger.by_applied.size();
+                      state.ledger.by_applied.size() == state_.ledger.by_applied.size() &&
+                      state.ledger.by_surroundings.size() == state_.ledger.by_surroundings.size();
     if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
     earlier_factorisations_ = state_.factorisations;
@@ -118,11 +108,11 @@ class HeatRun::Implementation {
 
  private:
   void implicit_interval(double begin, double length, const std::function<void(double)>& progress) {
-    if (state_.next_step <= 0) state_.next_step = scheme_->first_step(state_.temperature, allowed(state_.error));
+    if (state_.next_step <= 0) state_.next_step = scheme_->first_step(instant(begin), allowed(state_.error));
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
       const double dt = grid.step();
-      Step step = scheme_->step(state_.temperature, state_.error, dt);
+      const Step step = scheme_->step(instant(grid.time()), dt);
       state_.factorisations = earlier_factorisations_ + scheme_->factorisations();
       if (!(step.local_error <= allowed(state_.error))) {
         refine(grid, step.local_error / allowed(state_.error));
@@ -159,7 +149,7 @@ class HeatRun::Implementation {
     const auto count = static_cast<std::int64_t>(std::max(1.0, std::ceil(length / explicit_step_)));
     const double dt = length / static_cast<double>(count);
     for (std::int64_t i = 1; i <= count; ++i) {
-      const Step step = scheme_->step(state_.temperature, state_.error, dt);
+      const Step step = scheme_->step(instant(begin + static_cast<double>(i - 1) * dt), dt);
       accept(step, dt, begin + static_cast<double>(i) * dt, progress);
     }
   }
@@ -170,7 +160,16 @@ class HeatRun::Implementation {
     return share_of_room * std::max(room, least_room * options_.tolerance);
   }
 
+  [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
+
+  void include_drive(double time) {
+    const Drive& drive = drives_.at(time);
+    state_.given.include(drive.fixed);
+    for (const ExchangeRates& rates : drive.exchanges) state_.given.include(rates.surroundings);
+  }
+
   void accept(const Step& step, double dt, double time, const std::function<void(double)>& progress) {
+    bookkeeper_.book(step, state_.temperature, dt, state_.ledger);
     state_.temperature += step.change;
     state_.error = step.error;
     if (!state_.temperature.allFinite()) {
@@ -182,34 +181,32 @@ class HeatRun::Implementation {
     ++state_.steps;
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
-    book(step, dt);
+    state_.reached.include(state_.temperature);
+    if (drives_.vary()) include_drive(time);
     if (progress) progress(time);
-  }
-
-  void book(const Step& step, double dt) {
-    Ledger& ledger = state_.ledger;
-    std::vector<double> supply(model_.boundary_names.size(), 0.0);
-    for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-      supply[model_.fixed_boundary[i]] += step.supply[model_.fixed_nodes[i].value()];
-    }
-    for (std::size_t b = 0; b < supply.size(); ++b) {
-      ledger.by_boundary[b] += dt * supply[b];
-      ledger.turnover += dt * std::abs(supply[b]);
-    }
-    for (std::size_t a = 0; a < model_.applied_flows.size(); ++a) {
-      ledger.by_applied[a] += dt * model_.applied_flows[a].second;
-      ledger.turnover += dt * std::abs(model_.applied_flows[a].second);
-    }
-    ledger.stored = model_.capacity.dot(state_.temperature - model_.initial);
   }
 
   HeatModel model_;
   TimeOptions options_;
+  Bookkeeper bookkeeper_;
+  Drives drives_;
   std::unique_ptr<TimeScheme> scheme_;  // refers to model_
   double explicit_step_ = 0;            // [s]
   HeatState state_;
   std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from
 };
+
+void TemperatureRange::include(const Eigen::VectorXd& temperatures) {
+  if (temperatures.size() == 0) return;
+  least = std::min(least, temperatures.minCoeff());
+  largest = std::max(largest, temperatures.maxCoeff());
+}
+
+std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
+  if (!model.loads.empty()) return std::nullopt;
+  const double above = state.reached.largest - state.given.largest;
+  return std::max({0.0, above, state.given.least - state.reached.least});
+}
 
 HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options)
     : implementation_(std::make_unique<Implementation>(model, options)) {}

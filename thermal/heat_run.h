@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,14 +17,22 @@ namespace scree::thermal {
 // Where the heat went, all since t = 0 [J]. Each flow is integrated with the weights of the time scheme, so `residual`
 // is rounding and solver error only.
 struct Ledger {
-  double start_jump = 0;            // to bring the fixed nodes to their temperature at t = 0
-  std::vector<double> by_boundary;  // through fixed nodes, in the order of HeatModel::boundary_names
-  std::vector<double> by_applied;   // in the order of HeatModel::applied_flows
-  double stored = 0;                // sum of C (T - T_initial)
+  double start_jump = 0;                // to bring the fixed nodes to their temperature at t = 0
+  std::vector<double> by_boundary;      // through fixed nodes, in the order of HeatModel::holds
+  std::vector<double> by_applied;       // in the order of HeatModel::loads
+  std::vector<double> by_surroundings;  // in the order of HeatModel::exchanges
+  double stored = 0;                    // that the nodes hold more than at t = 0
   double turnover = 0;  // heat that flowed: integral of the sum of |flow| over boundaries and sources, and |start_jump|
 
   [[nodiscard]] double residual() const;           // |stored - all that came in| [J]
   [[nodiscard]] double relative_residual() const;  // of turnover; 0 if nothing flowed
+};
+
+struct TemperatureRange {
+  double least = std::numeric_limits<double>::infinity();  // [K]
+  double largest = -std::numeric_limits<double>::infinity();
+
+  void include(const Eigen::VectorXd& temperatures);
 };
 
 // Everything a later process needs to go on as if it had never stopped.
@@ -38,7 +48,15 @@ struct HeatState {
   std::int64_t factorisations = 0;
   double least_step = 0;    // [s]
   double largest_step = 0;  // [s]
+  // Of all nodes after any step so far, the start included; and of the temperatures that the heat comes from: at the start,
+  // of boundaries and of surroundings.
+  TemperatureRange reached;
+  TemperatureRange given;
 };
+
+// By how much the temperatures ever left the range of those that the heat comes from [K]: conduction cannot, so this is what
+// the mesh and the step make of a sudden start. Nothing where heat is applied: then they may.
+std::optional<double> overshoot(const HeatModel& model, const HeatState& state);
 
 // Takes a copy of the model. Throws InputError for options that make no sense (an explicit step above the stable one, named
 // with the block that limits it) and RunError if the equations cannot be solved or the tolerance is out of reach.
@@ -63,7 +81,8 @@ class HeatRun {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 K of the free nodes, and the node that limits it.
+// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 (K + convection) of the free nodes, and the node that
+// limits it.
 struct StableStep {
   double step = 0;
   NodeId node;

@@ -13,14 +13,14 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 1";
+constexpr const char* format_name = "scree heat state 2";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
 
 // A state as plain lists, in the order in which they are written.
 struct Lists {
-  Doubles temperature, error, by_boundary, by_applied, numbers;
+  Doubles temperature, error, by_boundary, by_applied, by_surroundings, numbers;
   Counts counts;
 };
 
@@ -38,8 +38,9 @@ Lists pack(const HeatState& state) {
           list_of(state.error),
           ledger.by_boundary,
           ledger.by_applied,
+          ledger.by_surroundings,
           {state.time, state.next_step, state.time_error, state.least_step, state.largest_step, ledger.start_jump,
-           ledger.stored, ledger.turnover},
+           ledger.stored, ledger.turnover, state.reached.least, state.reached.largest, state.given.least, state.given.largest},
           {state.steps, state.rejected_steps, state.factorisations}};
 }
 
@@ -49,6 +50,7 @@ HeatState unpack(const Lists& lists) {
   state.error = vector_of(lists.error);
   state.ledger.by_boundary = lists.by_boundary;
   state.ledger.by_applied = lists.by_applied;
+  state.ledger.by_surroundings = lists.by_surroundings;
   state.time = lists.numbers.at(0);
   state.next_step = lists.numbers.at(1);
   state.time_error = lists.numbers.at(2);
@@ -57,6 +59,8 @@ HeatState unpack(const Lists& lists) {
   state.ledger.start_jump = lists.numbers.at(5);
   state.ledger.stored = lists.numbers.at(6);
   state.ledger.turnover = lists.numbers.at(7);
+  state.reached = {lists.numbers.at(8), lists.numbers.at(9)};
+  state.given = {lists.numbers.at(10), lists.numbers.at(11)};
   state.steps = lists.counts.at(0);
   state.rejected_steps = lists.counts.at(1);
   state.factorisations = lists.counts.at(2);
@@ -66,7 +70,8 @@ HeatState unpack(const Lists& lists) {
 std::string digest(const std::string& key, const Lists& lists) {
   Hasher hasher;
   hasher.add(key);
-  for (const Doubles* list : {&lists.temperature, &lists.error, &lists.by_boundary, &lists.by_applied, &lists.numbers}) {
+  for (const Doubles* list :
+       {&lists.temperature, &lists.error, &lists.by_boundary, &lists.by_applied, &lists.by_surroundings, &lists.numbers}) {
     hasher.add(list->size()).add_bytes(list->data(), list->size() * sizeof(double));
   }
   hasher.add_bytes(lists.counts.data(), lists.counts.size() * sizeof(std::int64_t));
@@ -130,6 +135,7 @@ void write(const HeatState& state, const std::string& key, const std::filesystem
       put(out, "error", lists.error);
       put(out, "by_boundary", lists.by_boundary);
       put(out, "by_applied", lists.by_applied);
+      put(out, "by_surroundings", lists.by_surroundings);
       put(out, "numbers", lists.numbers);
       put(out, "counts", lists.counts);
     } catch (const H5::Exception& failure) {
@@ -151,9 +157,10 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     get(in, "error", lists.error);
     get(in, "by_boundary", lists.by_boundary);
     get(in, "by_applied", lists.by_applied);
+    get(in, "by_surroundings", lists.by_surroundings);
     get(in, "numbers", lists.numbers);
     get(in, "counts", lists.counts);
-    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 8 && lists.counts.size() == 3;
+    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 12 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {
       refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "thermal/flow_network.h"
+#include "thermal/heat_balance.h"
 
 namespace scree::thermal {
 
@@ -50,18 +50,20 @@ SpaceError estimate_space_error(const mesh::BlockMesh<dim>& mesh, const Table<Ma
   double whole = 0;
   for (const mesh::Block& block : mesh.blocks) {
     const Material& material = materials[mesh.bodies[block.body].material];
-    const double k = material.conductivity->value.constant().value();
-    const double volumetric_heat = *material.density * material.specific_heat->constant().value();
     for (const ElementId e : block.elements) {
       std::array<Point<dim>, dim + 1> gap;
       std::array<Point<dim>, dim + 1> smooth;
       double mean_rate = 0;
+      double mean_temperature = 0;
       for (int i = 0; i <= dim; ++i) {
         const NodeId node = mesh.elements[e][i];
         smooth[i] = recovered[node.index()];
         gap[i] = smooth[i] - fluxes[e.index()];
         mean_rate += rate[node.value()] / (dim + 1);
+        mean_temperature += temperature[node.value()] / (dim + 1);
       }
+      const double k = material.conductivity->mean(mean_temperature);
+      const double volumetric_heat = *material.density * (*material.specific_heat)(mean_temperature);
       const double volume = mesh::element_volume(mesh, e);
       const double square = mean_square<dim>(gap);
       missed += volume / k * square;
@@ -76,9 +78,11 @@ SpaceError estimate_space_error(const mesh::BlockMesh<dim>& mesh, const Table<Ma
   return error;
 }
 
-Eigen::VectorXd temperature_rate(const HeatModel& model, const Eigen::VectorXd& temperature) {
-  const FlowNetwork flows(model.conductance);
-  Eigen::VectorXd rate = (model.load - flows.leaving(temperature)).cwiseQuotient(model.capacity);
+Eigen::VectorXd temperature_rate(const HeatModel& model, const Eigen::VectorXd& temperature, double time) {
+  Drives drives(model);
+  const HeatBalance balance(model);
+  const Drive& drive = drives.at(time);
+  Eigen::VectorXd rate = balance.heating(temperature, drive).cwiseQuotient(balance.linearised(temperature, drive).capacity);
   for (const NodeId node : model.fixed_nodes) rate[node.value()] = 0;
   return rate;
 }

@@ -28,6 +28,6 @@ SpaceError estimate_space_error(const mesh::BlockMesh<dim>& mesh, const Table<Ma
                                 const Eigen::VectorXd& temperature, const Eigen::VectorXd& rate);
 
 // dT/dt = C^-1 (Q - K T), 0 at held nodes [K/s].
-Eigen::VectorXd temperature_rate(const HeatModel& model, const Eigen::VectorXd& temperature);
+Eigen::VectorXd temperature_rate(const HeatModel& model, const Eigen::VectorXd& temperature, double time);
 
 }  // namespace scree::thermal

@@ -1,34 +1,49 @@
-// What one step of a time scheme does to C dT/dt = Q - K T.
+// What one step of a time scheme does to dH/dt = F(T, t), for constant properties C dT/dt = Q - K T.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "thermal/heat_model.h"
 
 namespace scree::thermal {
 
+// Where a step begins.
+struct Instant {
+  double time = 0;              // [s]
+  Eigen::VectorXd temperature;  // fixed nodes at their temperature of this time [K]
+  Eigen::VectorXd error;        // estimate of the global error [K]
+};
+
+// The flows of a step are a weighted mean of those at its stages: heat content changes by exactly that, which is why the
+// ledger closes.
+struct Stage {
+  double weight = 1;            // they add up to 1
+  double time = 0;              // [s]
+  Eigen::VectorXd temperature;  // [K]
+};
+
 struct Step {
-  Eigen::VectorXd change;  // of the temperature, zero at fixed nodes [K]
-  Eigen::VectorXd error;   // global error after the step, per node [K]
-  // Heat that fixed nodes need to stay fixed, K T - Q in the mean over the step with the scheme's own weights; only its fixed
-  // rows mean anything [W].
-  Eigen::VectorXd supply;
+  Eigen::VectorXd change;  // of the temperature [K]
+  Eigen::VectorXd error;   // global error after the step, per node; zero at fixed nodes [K]
+  std::vector<Stage> stages;
   double local_error = 0;  // largest entry of this step's own contribution to the error [K]
 };
 
-// A linear one-step scheme with its estimate of the global error. Beside the temperatures T a scheme follows, in exact
-// arithmetic, a second solution V of one order more; error = T - V. Kept as the difference, that is: the error is carried by
-// the scheme's own operator, and each step adds the difference between the two schemes applied to V.
+// A one-step scheme with its estimate of the global error. Beside the temperatures T a scheme follows, in exact arithmetic, a
+// second solution V of one order more; error = T - V. Kept as the difference, that is: the error is carried by the scheme's
+// own (linearised) operator, and each step adds the difference between the two schemes applied to V.
 class TimeScheme {
  public:
   virtual ~TimeScheme() = default;
 
-  virtual Step step(const Eigen::VectorXd& temperature, const Eigen::VectorXd& error, double length) = 0;
+  // A local error that is not finite says that the step is too long to be solved.
+  virtual Step step(const Instant& from, double length) = 0;
 
   // A step whose local error is about `allowed` [K] from a state whose past is unknown [s]; infinite if nothing changes.
-  virtual double first_step(const Eigen::VectorXd& temperature, double allowed) = 0;
+  virtual double first_step(const Instant& from, double allowed) = 0;
 
   // What the estimated error is multiplied with so as to bound the true one.
   [[nodiscard]] virtual double safety() const = 0;
@@ -41,7 +56,11 @@ class TimeScheme {
   TimeScheme& operator=(const TimeScheme&) = default;
 };
 
+// All refer to the model. The implicit scheme, linear where the properties are constant.
 std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model);
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model);
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model);
+// Throws InputError for a model that it cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 
 }  // namespace scree::thermal

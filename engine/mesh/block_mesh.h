@@ -28,6 +28,7 @@ struct Block {
   IdRange<NodeId> nodes;
   IdRange<ElementId> elements;
   IdRange<CellId> cells = {};  // empty if the block has simplices only; else its elements are a conforming split of them
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // how it has turned since it was meshed
 };
 
 // A quadrilateral, wedge or hexahedron.

@@ -13,6 +13,7 @@ mesh::BlockMesh<dim> placed_mesh(const Packing<dim>& packing) {
   mesh::BlockMesh<dim> placed = packing.mesh;
   for (const BlockId block : placed.blocks.ids()) {
     const Pose& pose = packing.poses[block];
+    placed.blocks[block].orientation = pose.rotation * placed.blocks[block].orientation;
     for (const NodeId node : placed.blocks[block].nodes) {
       Eigen::Vector3d reference = Eigen::Vector3d::Zero();
       reference.head<dim>() = placed.nodes[node];

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/thermal/builders.h"
+#include "thermal/drive.h"
 #include "thermal/heat_run.h"
 #include "thermal/time_scheme.h"
 
@@ -43,13 +44,10 @@ TEST(Steps, FromAMicrosecondToThirtyYearsStayInTheRangeOfTheData) {
 // joints keep the temperatures at contact points and not at nodes.
 TEST(Steps, AHugeFirstStepOvershootsByLessThanAQuarterOfTheChange) {
   const HeatModel model = hot_left_end(10);
-  Eigen::VectorXd start = model.initial;
-  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
-    start[model.fixed_nodes[i].value()] = model.fixed_temperature[static_cast<Eigen::Index>(i)];
-  }
+  const Eigen::VectorXd start = held(model, model.initial, Drives(model).at(0));
   const auto scheme = make_implicit_scheme(model);
   for (double length = 1; length < 1e12; length *= 3) {
-    const Step step = scheme->step(start, Eigen::VectorXd::Zero(start.size()), length);
+    const Step step = scheme->step({0, start, Eigen::VectorXd::Zero(start.size())}, length);
     const Eigen::VectorXd after = start + step.change;
     EXPECT_LT(after.maxCoeff(), 400 + 0.25 * 100) << length;
     EXPECT_GT(after.minCoeff(), 300 - 0.25 * 100) << length;

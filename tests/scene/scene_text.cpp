@@ -73,14 +73,24 @@ std::string text_of(const thermal::Region& region) {
   if (!region.within) return body;
   return fmt::format("{} {} {}", body, text_of(region.within->min()), text_of(region.within->max()));
 }
+// A function that is no number is told by its value at one place and time.
+std::string text_of(const Function& f) {
+  return fmt::format("{} {} {}", f(Eigen::Vector3d(0.1, 0.2, 0.3), 7), f.varies_in_place(), f.varies_in_time());
+}
 std::string text_of(const thermal::FixedTemperature& c) {
-  return fmt::format("temperature {}", c.temperature);
+  return "temperature " + text_of(c.temperature);
 }
 std::string text_of(const thermal::HeatFlux& c) {
-  return fmt::format("flux {}", c.flux);
+  return "flux " + text_of(c.flux);
 }
 std::string text_of(const thermal::HeatFlow& c) {
-  return fmt::format("flow {}", c.flow);
+  return "flow " + text_of(c.flow);
+}
+std::string text_of(const thermal::Convection& c) {
+  return fmt::format("convection {} {}", text_of(c.coefficient), text_of(c.surroundings));
+}
+std::string text_of(const thermal::Radiation& c) {
+  return fmt::format("radiation {} {}", text_of(c.emissivity), text_of(c.surroundings));
 }
 
 std::string text_of(const rigid::SettleOptions& o) {
@@ -102,12 +112,12 @@ std::string text_of(const std::optional<contact::Model>& model) {
 
 std::string text_of(const thermal::HeatOptions& heat) {
   std::string text = "initial";
-  for (const double value : heat.initial_temperature) text += fmt::format(" {}", value);
+  for (const Function& value : heat.initial_temperature) text += " " + text_of(value);
   for (const auto& b : heat.boundaries) {
     text += fmt::format("\nboundary {} {} {}", b.name, text_of(b.region),
                         std::visit([](const auto& c) { return text_of(c); }, b.condition));
   }
-  for (const auto& s : heat.sources) text += fmt::format("\nsource {} {} {}", s.name, text_of(s.region), s.power);
+  for (const auto& s : heat.sources) text += fmt::format("\nsource {} {} {}", s.name, text_of(s.region), text_of(s.power));
   text +=
       fmt::format("\njoint {} {} {}", text_of(heat.joint.law), text_of(heat.joint.model), static_cast<int>(heat.joint.form));
   for (const auto& rule : heat.joint.rules) {

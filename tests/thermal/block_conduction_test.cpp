@@ -63,7 +63,7 @@ TYPED_TEST(BlockConduction, AreaVectorsPointOutwardsAndSumToZero) {
 TYPED_TEST(BlockConduction, StiffnessIsEquationsFourAndFiveAsPrinted) {
   constexpr int dim = TypeParam::value;
   const Corners<dim> points = crooked<dim>();
-  const CornerMatrix<dim> stiffness = element_conductance<dim>(points, 3.1);
+  const CornerMatrix<dim> stiffness = element_conductance<dim>(points, 3.1 * Tensor<dim>::Identity());
   for (int b = 0; b <= dim; ++b) {
     const CornerValues<dim> flow = literal_node_flows<dim>(points, 3.1, CornerValues<dim>::Unit(b));
     EXPECT_LT((flow + stiffness.col(b)).norm(), 1e-14 * stiffness.norm());
@@ -75,12 +75,12 @@ TYPED_TEST(BlockConduction, FluxOfALinearFieldIsMinusConductivityTimesItsGradien
   const Corners<dim> points = crooked<dim>();
   const Point<dim> gradient = Point<dim>::LinSpaced(2.0, -1.0);
   const CornerValues<dim> temperature = (points.transpose() * gradient).array() + 350.0;
-  EXPECT_LT((element_flux<dim>(points, 3.1, temperature) + 3.1 * gradient).norm(), 1e-12);
+  EXPECT_LT((element_flux<dim>(points, 3.1 * Tensor<dim>::Identity(), temperature) + 3.1 * gradient).norm(), 1e-12);
 }
 
 TYPED_TEST(BlockConduction, StiffnessIsExactlySymmetricWithoutFlowAtUniformTemperature) {
   constexpr int dim = TypeParam::value;
-  const CornerMatrix<dim> stiffness = element_conductance<dim>(crooked<dim>(), 3.1);
+  const CornerMatrix<dim> stiffness = element_conductance<dim>(crooked<dim>(), 3.1 * Tensor<dim>::Identity());
   EXPECT_EQ(stiffness, stiffness.transpose());
   EXPECT_LT(stiffness.rowwise().sum().cwiseAbs().maxCoeff(), 1e-15 * stiffness.norm());
 }

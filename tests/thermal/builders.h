@@ -192,7 +192,7 @@ contact::ContactSet<dim> matching_contacts(const mesh::BlockMesh<dim>& mesh) {
 template <int dim>
 HeatOptions options_for(const mesh::BlockMesh<dim>& mesh, double initial) {
   HeatOptions options;
-  options.initial_temperature = Table<BodyId, double>(mesh.bodies.size(), initial);
+  options.initial_temperature = Table<BodyId, Function>(mesh.bodies.size(), initial);
   return options;
 }
 

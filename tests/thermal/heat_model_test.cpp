@@ -5,6 +5,7 @@
 
 #include "tests/thermal/builders.h"
 #include "thermal/block_conduction.h"
+#include "thermal/drive.h"
 #include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
@@ -150,14 +151,16 @@ TYPED_TEST(HeatModels, BoundaryHeatAddsUpToWhatWasAsked) {
   options.boundaries.push_back({test::on(BodyId{0}, between_x(2, 2)), HeatFlow{-7}, "flow", {}});
   options.sources.push_back({test::on(BodyId{0}, between_x(0, 1)), 1000, "source", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
-  ASSERT_EQ(model.applied_flows.size(), 3U);
-  EXPECT_NEAR(model.applied_flows[0].second, 120 * side, 1e-10);
-  EXPECT_NEAR(model.applied_flows[1].second, -7, 1e-12);
-  EXPECT_NEAR(model.applied_flows[2].second, 1000 * side, 1e-9);
-  EXPECT_NEAR(model.load.sum(), 120 * side - 7 + 1000 * side, 1e-9);
+  Drives drives(model);
+  const Drive& drive = drives.at(0);
+  ASSERT_EQ(drive.by_load.size(), 3U);
+  EXPECT_NEAR(drive.by_load[0], 120 * side, 1e-10);
+  EXPECT_NEAR(drive.by_load[1], -7, 1e-12);
+  EXPECT_NEAR(drive.by_load[2], 1000 * side, 1e-9);
+  EXPECT_NEAR(drive.load.sum(), 120 * side - 7 + 1000 * side, 1e-9);
   for (const NodeId node : mesh.nodes.ids()) {
     const bool between = mesh.nodes[node][0] > 1.01 && mesh.nodes[node][0] < 1.99;
-    EXPECT_EQ(between ? model.load[node.value()] : 0, 0);
+    EXPECT_EQ(between ? drive.load[node.value()] : 0, 0);
   }
 }
 
@@ -171,11 +174,12 @@ TYPED_TEST(HeatModels, FixedTemperaturesHoldTheNodesInTheirRegionOnly) {
   options.boundaries.push_back({test::on(BodyId{0}, std::nullopt), FixedTemperature{350}, "all of the left slab", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
   EXPECT_EQ(model.fixed_nodes.size(), mesh.blocks[BlockId{0}].nodes.size() + (dim == 2 ? 2 : 4));
+  Drives drives(model);
   EXPECT_TRUE(std::is_sorted(model.fixed_nodes.begin(), model.fixed_nodes.end()));
   for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
     const bool left = model.blocks[model.fixed_nodes[i]] == BlockId{0};
-    EXPECT_EQ(model.fixed_temperature[static_cast<Eigen::Index>(i)], left ? 350 : 400);
-    EXPECT_EQ(model.boundary_names[model.fixed_boundary[i]], left ? "all of the left slab" : "left end of the right slab");
+    EXPECT_EQ(drives.at(0).fixed[static_cast<Eigen::Index>(i)], left ? 350 : 400);
+    EXPECT_EQ(model.holds[model.fixed_hold[i]].name, left ? "all of the left slab" : "left end of the right slab");
   }
 }
 
@@ -232,10 +236,12 @@ TYPED_TEST(HeatModels, ASurfaceTakesTheHeatOfTheRegionThatHoldsItsFaces) {
     boundary.region.surface = "left";
   }
   const HeatModel a = make_heat_model(mesh, rock_only(), {}, by_surface), b = make_heat_model(mesh, rock_only(), {}, by_region);
-  EXPECT_EQ(a.load, b.load);
+  Drives of_a(a);
+  Drives of_b(b);
+  EXPECT_EQ(of_a.at(0).load, of_b.at(0).load);
   EXPECT_EQ(a.fixed_nodes, b.fixed_nodes);
-  EXPECT_EQ(a.applied_flows, b.applied_flows);
-  EXPECT_NEAR(a.load.sum(), 12 * (dim == 2 ? 0.5 : 0.25) - 5, 1e-12);
+  EXPECT_EQ(of_a.at(0).by_load, of_b.at(0).by_load);
+  EXPECT_NEAR(of_a.at(0).load.sum(), 12 * (dim == 2 ? 0.5 : 0.25) - 5, 1e-12);
 }
 
 TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
@@ -246,7 +252,7 @@ TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
   options.boundaries.push_back({test::on(BodyId{0}, lower, "left"), HeatFlux{1}, "flux", {}});
   options.boundaries.push_back({test::on(BodyId{0}, lower, "left"), FixedTemperature{400}, "held", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), {}, options);
-  EXPECT_NEAR(model.load.sum(), dim == 2 ? 0.25 : 0.125, 1e-13);
+  EXPECT_NEAR(Drives(model).at(0).load.sum(), dim == 2 ? 0.25 : 0.125, 1e-13);
   EXPECT_EQ(model.fixed_nodes.size(), dim == 2 ? 2u : 6u);
 }
 

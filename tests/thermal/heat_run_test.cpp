@@ -5,6 +5,7 @@
 
 #include "engine/base/check.h"
 #include "tests/thermal/builders.h"
+#include "thermal/drive.h"
 
 namespace scree::thermal {
 namespace {
@@ -136,7 +137,7 @@ TEST(HeatRun, LedgerNamesWhatCameInWhere) {
     const Ledger& ledger = run.state().ledger;
     EXPECT_GT(ledger.start_jump, 0);
     EXPECT_GT(ledger.by_boundary.at(0), 0);
-    EXPECT_NEAR(ledger.by_applied.at(0), 20 * model.applied_flows.at(0).second, 1e-9 * ledger.turnover);
+    EXPECT_NEAR(ledger.by_applied.at(0), 20 * Drives(model).at(0).by_load.at(0), 1e-9 * ledger.turnover);
     EXPECT_GT(ledger.stored, ledger.start_jump);
     EXPECT_LT(ledger.relative_residual(), 1e-12);
   }

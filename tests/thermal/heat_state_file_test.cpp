@@ -15,7 +15,9 @@ HeatState some_state() {
   state.temperature = Eigen::VectorXd::LinSpaced(101, 273.15, 373.15).array().sin();
   state.error = -state.temperature / 3;
   state.next_step = 1.0 / 3;
-  state.ledger = {1.0 / 7, {2.0 / 7, -3.0 / 7}, {}, 4.0 / 7, 5.0 / 7};
+  state.ledger = {1.0 / 7, {2.0 / 7, -3.0 / 7}, {}, {6.0 / 7}, 4.0 / 7, 5.0 / 7};
+  state.reached = {1.0 / 11, 2.0 / 11};
+  state.given = {3.0 / 11, 4.0 / 11};
   state.time_error = 1e-17;
   state.steps = 12;
   state.rejected_steps = 3;
@@ -41,9 +43,14 @@ TEST(HeatStateFile, GivesBackEveryBit) {
   EXPECT_EQ(read.ledger.start_jump, state.ledger.start_jump);
   EXPECT_EQ(read.ledger.by_boundary, state.ledger.by_boundary);
   EXPECT_EQ(read.ledger.by_applied, state.ledger.by_applied);
+  EXPECT_EQ(read.ledger.by_surroundings, state.ledger.by_surroundings);
   EXPECT_EQ(read.ledger.stored, state.ledger.stored);
   EXPECT_EQ(read.ledger.turnover, state.ledger.turnover);
   EXPECT_EQ(read.time_error, state.time_error);
+  EXPECT_EQ(read.reached.least, state.reached.least);
+  EXPECT_EQ(read.reached.largest, state.reached.largest);
+  EXPECT_EQ(read.given.least, state.given.least);
+  EXPECT_EQ(read.given.largest, state.given.largest);
   EXPECT_EQ(read.steps, state.steps);
   EXPECT_EQ(read.rejected_steps, state.rejected_steps);
   EXPECT_EQ(read.factorisations, state.factorisations);

@@ -58,7 +58,7 @@ Steps take(TimeScheme& scheme, const Modes& exact, const Eigen::VectorXd& start,
   Eigen::VectorXd error = Eigen::VectorXd::Zero(start.size());
   Steps result;
   for (int n = 1; n <= count; ++n) {
-    const Step step = scheme.step(temperature, error, until / count);
+    const Step step = scheme.step({(n - 1) * until / count, temperature, error}, until / count);
     temperature += step.change;
     error = step.error;
     result.last = (temperature - exact.after(n * until / count, start)).lpNorm<Eigen::Infinity>();
@@ -102,7 +102,7 @@ TEST(TimeScheme, AStepFarAboveAllTimeScalesEndsAtTheMeanWithoutRinging) {
   const HeatModel model = two_halves(1e3);
   const auto scheme = make_implicit_scheme(model);
   const double mean = model.capacity.dot(model.initial) / model.capacity.sum();
-  const Step step = scheme->step(model.initial, Eigen::VectorXd::Zero(model.initial.size()), 1e9);
+  const Step step = scheme->step({0, model.initial, Eigen::VectorXd::Zero(model.initial.size())}, 1e9);
   EXPECT_LT((model.initial + step.change).array().operator-(mean).abs().maxCoeff(), 0.01);
 }
 

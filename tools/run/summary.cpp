@@ -44,13 +44,22 @@ Json settle_json(const packing::Packing<dim>& packing, bool reused) {
           {"packing_key", packing.key}};
 }
 
+// The heat by name, of one kind.
+template <class Named>
+Json by_name(const std::vector<Named>& named, const std::vector<double>& heat) {
+  Json entries = Json::object();
+  for (std::size_t i = 0; i < named.size(); ++i) entries[named[i].name] = heat[i];
+  return entries;
+}
+
 Json ledger_json(const thermal::Ledger& ledger, const thermal::HeatModel& model) {
-  Json boundaries = Json::object();
-  for (std::size_t i = 0; i < model.boundary_names.size(); ++i) boundaries[model.boundary_names[i]] = ledger.by_boundary[i];
-  Json applied = Json::object();
-  for (std::size_t i = 0; i < model.applied_flows.size(); ++i) applied[model.applied_flows[i].first] = ledger.by_applied[i];
-  return {{"start_jump", ledger.start_jump}, {"by_boundary", std::move(boundaries)}, {"by_applied", std::move(applied)},
-          {"stored", ledger.stored},         {"turnover", ledger.turnover},          {"residual", ledger.residual()}};
+  return {{"start_jump", ledger.start_jump},
+          {"by_boundary", by_name(model.holds, ledger.by_boundary)},
+          {"by_applied", by_name(model.loads, ledger.by_applied)},
+          {"by_surroundings", by_name(model.exchanges, ledger.by_surroundings)},
+          {"stored", ledger.stored},
+          {"turnover", ledger.turnover},
+          {"residual", ledger.residual()}};
 }
 
 template <int dim>
@@ -162,7 +171,10 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"ledger", ledger_json(state.ledger, outcome.model)},
                      {"probes", probes_json(outcome)},
                      {"least_temperature", state.temperature.minCoeff()},
-                     {"largest_temperature", state.temperature.maxCoeff()}};
+                     {"largest_temperature", state.temperature.maxCoeff()},
+                     {"least_temperature_ever", state.reached.least},
+                     {"largest_temperature_ever", state.reached.largest}};
+  if (const auto beyond = thermal::overshoot(outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
 }
 
 void add_stages(Json& summary, const std::vector<StageCost>& costs) {

@@ -70,8 +70,8 @@ thermal::Source read_source(const Checked& part, Names& names, int dimension, Pr
 }
 
 // One temperature for all bodies, or one for each.
-Table<BodyId, double> read_initial(const Checked& initial, const Names& names, Problems& problems) {
-  Table<BodyId, double> result(names.bodies.size(), initial.number());
+Table<BodyId, Function> read_initial(const Checked& initial, const Names& names, Problems& problems) {
+  Table<BodyId, Function> result(names.bodies.size(), initial.number());
   if (!initial.is_map) return result;
   for (const CheckedEntry& entry : initial.entries) {
     const auto place = std::find(names.bodies.begin(), names.bodies.end(), entry.name);

@@ -1,0 +1,26 @@
+// Writes a step's flows into the ledger.
+#pragma once
+
+#include "thermal/heat_balance.h"
+#include "thermal/heat_run.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+
+class Bookkeeper {
+ public:
+  explicit Bookkeeper(const HeatModel& model);  // refers to it
+
+  // A ledger in which nothing has flowed but what brings the fixed nodes to `temperature` at the start.
+  [[nodiscard]] Ledger open(const Eigen::VectorXd& temperature) const;
+
+  // A step of this length from `before`.
+  void book(const Step& step, const Eigen::VectorXd& before, double length, Ledger& ledger);
+
+ private:
+  const HeatModel& model_;
+  Drives drives_;
+  HeatBalance balance_;
+};
+
+}  // namespace scree::thermal

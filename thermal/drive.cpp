@@ -1,0 +1,121 @@
+#include "thermal/drive.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "thermal/exchange.h"
+#include "thermal/problems.h"
+
+namespace scree::thermal {
+
+namespace {
+
+constexpr std::size_t recent_times = 4;  // of one step and the next
+
+struct Range {
+  double least;
+  double largest;
+  const char* rule;
+};
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range any_value{-infinity, infinity, "must be finite"};
+constexpr Range kelvin{0, infinity, "must be a temperature of 0 K or more"};
+constexpr Range coefficient_range{0, infinity, "must not be negative, W/m2/K"};
+constexpr Range emissivity_range{0, 1, "must be from 0 to 1"};
+
+// Functions at the places of nodes, checked.
+class Evaluator {
+ public:
+  Evaluator(const HeatModel& model, double time) : model_(model), time_(time) {}
+
+  double operator()(const Function& function, NodeId node, const std::string& name, const Range& range) const {
+    const Eigen::Vector3d place = model_.places.col(node.value());
+    const double value = function(place, time_);
+    if (std::isfinite(value) && value >= range.least && value <= range.largest) return value;
+    throw InputError(problem(
+        "heat: " + name, fmt::format("{:g} at ({:g}, {:g}, {:g}) m and {:g} s", value, place.x(), place.y(), place.z(), time_),
+        range.rule, "Look at its expression or table there"));
+  }
+
+ private:
+  const HeatModel& model_;
+  double time_;
+};
+
+bool varies(const Exchange& exchange) {
+  return exchange.coefficient.varies_in_time() || exchange.surroundings.varies_in_time();
+}
+
+ExchangeRates rates(const Exchange& exchange, const Evaluator& evaluate) {
+  const std::size_t count = exchange.on.nodes.size();
+  ExchangeRates result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  const bool radiates = exchange.law == Exchange::Law::radiation;
+  for (std::size_t i = 0; i < count; ++i) {
+    const NodeId node = exchange.on.nodes[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    const double coefficient =
+        evaluate(exchange.coefficient, node, exchange.name, radiates ? emissivity_range : coefficient_range);
+    result.factor[row] = (radiates ? stefan_boltzmann : 1) * coefficient * exchange.on.shares[i];
+    result.surroundings[row] = evaluate(exchange.surroundings, node, exchange.name, kelvin);
+  }
+  return result;
+}
+
+}  // namespace
+
+Drives::Drives(const HeatModel& model) : model_(model) {
+  for (const Hold& hold : model.holds) vary_ = vary_ || hold.temperature.varies_in_time();
+  for (const Load& load : model.loads) vary_ = vary_ || load.density.varies_in_time();
+  for (const Exchange& exchange : model.exchanges) vary_ = vary_ || varies(exchange);
+  constant_.load = Eigen::VectorXd::Zero(model.capacity.size());
+  constant_.by_load.assign(model.loads.size(), 0.0);
+  constant_.fixed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
+  constant_.exchanges.resize(model.exchanges.size());
+  evaluate(Part::constant, constant_);
+}
+
+void Drives::evaluate(Part part, Drive& drive) const {
+  const bool varying = part == Part::varying;
+  const Evaluator value(model_, drive.time);
+  for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+    const Hold& hold = model_.holds[model_.fixed_hold[i]];
+    if (hold.temperature.varies_in_time() != varying) continue;
+    drive.fixed[static_cast<Eigen::Index>(i)] = value(hold.temperature, model_.fixed_nodes[i], hold.name, kelvin);
+  }
+  for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+    const Load& load = model_.loads[l];
+    if (load.density.varies_in_time() != varying) continue;
+    for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
+      const double heat = load.on.shares[i] * value(load.density, load.on.nodes[i], load.name, any_value);
+      drive.load[load.on.nodes[i].value()] += heat;
+      drive.by_load[l] += heat;
+    }
+  }
+  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+    const Exchange& exchange = model_.exchanges[e];
+    if (varies(exchange) == varying) drive.exchanges[e] = rates(exchange, value);
+  }
+}
+
+const Drive& Drives::at(double time) {
+  if (!vary_) return constant_;
+  for (const Drive& drive : recent_) {
+    if (drive.time == time) return drive;
+  }
+  if (recent_.size() == recent_times) recent_.pop_back();
+  recent_.push_front(constant_);
+  recent_.front().time = time;
+  evaluate(Part::varying, recent_.front());
+  return recent_.front();
+}
+
+Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd temperature, const Drive& drive) {
+  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
+    temperature[model.fixed_nodes[i].value()] = drive.fixed[static_cast<Eigen::Index>(i)];
+  }
+  return temperature;
+}
+
+}  // namespace scree::thermal

@@ -1,0 +1,48 @@
+// What acts on the nodes from outside, as numbers at one time.
+#pragma once
+
+#include <list>
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+// Of one Exchange, in the order of its nodes.
+struct ExchangeRates {
+  Eigen::VectorXd factor;        // h A [W/K], or sigma epsilon A [W/K4]
+  Eigen::VectorXd surroundings;  // [K]
+};
+
+struct Drive {
+  double time = 0;                       // [s]
+  Eigen::VectorXd load;                  // into each node [W]
+  std::vector<double> by_load;           // each load's total [W]
+  Eigen::VectorXd fixed;                 // of the fixed nodes, in their order [K]
+  std::vector<ExchangeRates> exchanges;  // in the model's order
+};
+
+class Drives {
+ public:
+  // Evaluates what does not change once and for all; refers to the model.
+  explicit Drives(const HeatModel& model);
+
+  // Valid until three other times have been asked for. Throws InputError for a value that makes no sense: one that is not
+  // finite, a temperature below 0 K, a negative coefficient, an emissivity outside 0 to 1.
+  const Drive& at(double time);
+
+  [[nodiscard]] bool vary() const { return vary_; }
+
+ private:
+  enum class Part { constant, varying };
+  void evaluate(Part part, Drive& drive) const;
+
+  const HeatModel& model_;
+  bool vary_ = false;
+  Drive constant_;
+  std::list<Drive> recent_;  // the latest first
+};
+
+// `temperature` with the fixed nodes at what the drive holds them at.
+Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd temperature, const Drive& drive);
+
+}  // namespace scree::thermal

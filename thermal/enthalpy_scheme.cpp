@@ -1,0 +1,138 @@
+// The scheme of sdirk2.h for properties and coefficients that change: Newton's iteration for each stage,
+//   r = B + gamma h F(Y) - (H(Y) - H(T)),    Y += M^-1 r,    B = 0, then from_first (H(Y1) - H(T)),
+// with one matrix M per step, taken at its start, and a new one where the iteration converges slowly. It goes on until the
+// residual is rounding, so that the ledger closes: what is left of r is heat that came from nowhere.
+#include <limits>
+
+#include "thermal/free_nodes.h"
+#include "thermal/heat_solver.h"
+#include "thermal/sdirk2.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+
+namespace {
+
+using namespace sdirk2;
+
+constexpr int most_iterations = 30;
+constexpr double least_gain = 0.2;      // of an iteration, before a new matrix is worth its cost
+constexpr double left_of_heat = 1e-13;  // residual, of the heat that the stage moves
+constexpr double rounding = 1e-12;      // of a temperature: an iteration that moves less and gains little has come to its end
+
+class EnthalpyScheme : public TimeScheme {
+ public:
+  explicit EnthalpyScheme(const HeatModel& model)
+      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_) {}
+
+  Step step(const Instant& from, double length) override {
+    scale_ = gamma * length;
+    Stage first{1 - gamma, from.time + scale_, {}};
+    Stage last{gamma, from.time + length, {}};
+    first.temperature = held(model_, from.temperature, drives_.at(first.time));
+    linearise(first);
+
+    Step result;
+    result.local_error = std::numeric_limits<double>::infinity();
+    Eigen::VectorXd heat1 = Eigen::VectorXd::Zero(free_.size());
+    if (!solve(from, heat1, first)) return result;
+    heat1 = free_.gather(balance_.stored(from.temperature, first.temperature));
+    last.temperature = held(model_, first.temperature, drives_.at(last.time));
+    if (!solve(from, from_first * heat1, last)) return result;
+
+    StageHeats heats;  // of the companion V = T - error, to first order in the error
+    heats.start = scale_ * free_.gather(balance_.heating(from.temperature, drives_.at(from.time)));
+    heats.first = heat1;
+    heats.last = free_.gather(balance_.stored(from.temperature, last.temperature)) - from_first * heat1;
+    const Eigen::VectorXd carried = carry(from.error, heats);
+    const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
+    const Eigen::VectorXd local =
+        local_error(heats, capacity, [this](const Eigen::VectorXd& heat) { return solver_.solve(heat); });
+
+    result.change = last.temperature - from.temperature;
+    result.error = from.error + free_.scatter(carried + local);
+    result.local_error = local.lpNorm<Eigen::Infinity>();
+    result.stages = {std::move(first), std::move(last)};
+    return result;
+  }
+
+  // The local error of a short step is third_order h^3 T''', taken as if the equations were linear.
+  double first_step(const Instant& from, double allowed) override {
+    const Drive& drive = drives_.at(from.time);
+    const Linearised at = balance_.linearised(from.temperature, drive);
+    const Eigen::VectorXd capacity = free_.gather(at.capacity);
+    Eigen::VectorXd derivative = free_.gather(balance_.heating(from.temperature, drive)).cwiseQuotient(capacity);
+    for (int order = 2; order <= 3; ++order) {
+      derivative = -free_.gather(balance_.lost(free_.scatter(derivative), at)).cwiseQuotient(capacity);
+    }
+    const double largest = derivative.lpNorm<Eigen::Infinity>();
+    return largest > 0 ? std::cbrt(allowed / (third_order * largest)) : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] double safety() const override { return 1 / least_ratio; }
+  [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
+  [[nodiscard]] std::string name() const override {
+    return "SDIRK2 (L-stable, second order) of the enthalpy, Newton's iteration, steps from the tolerance; " + solver_.name();
+  }
+
+ private:
+  void linearise(const Stage& stage) {
+    linear_ = balance_.linearised(stage.temperature, drives_.at(stage.time));
+    solver_.prepare(linear_, scale_);
+  }
+
+  // From the stage's temperatures as a first guess to its solution; false if there is none to be had. `base` is B [J].
+  bool solve(const Instant& from, const Eigen::VectorXd& base, Stage& stage) {
+    double before = std::numeric_limits<double>::infinity();
+    double moved = before;  // by the last iteration [K]
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const Eigen::VectorXd stored = free_.gather(balance_.stored(from.temperature, stage.temperature));
+      const Eigen::VectorXd heating = free_.gather(balance_.heating(stage.temperature, drives_.at(stage.time)));
+      const Eigen::VectorXd residual = base + scale_ * heating - stored;
+      const double left = residual.lpNorm<1>();
+      if (!std::isfinite(left)) return false;
+      if (left <= left_of_heat * (stored.lpNorm<1>() + base.lpNorm<1>())) return true;
+      const bool slow = left > least_gain * before;
+      if (slow && moved <= rounding * stage.temperature.lpNorm<Eigen::Infinity>()) return true;
+      if (slow) linearise(stage);
+      before = left;
+      const Eigen::VectorXd change = solver_.solve(residual);
+      moved = change.lpNorm<Eigen::Infinity>();
+      stage.temperature += free_.scatter(change);
+    }
+    return false;
+  }
+
+  // How the error changes over the step, and what that takes off the companion's heats.
+  Eigen::VectorXd carry(const Eigen::VectorXd& error, StageHeats& heats) {
+    const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
+    const Eigen::VectorXd start = -scale_ * free_.gather(balance_.lost(error, linear_));
+    const Eigen::VectorXd d1 = solver_.solve(start);
+    const Eigen::VectorXd first = capacity.cwiseProduct(d1);
+    const Eigen::VectorXd d2 = solver_.solve(first);
+    heats.start -= start;
+    heats.first -= first;
+    heats.last -= from_first * (capacity.cwiseProduct(d2) - first) + first;
+    return d1 + from_first * d2;
+  }
+
+  const HeatModel& model_;
+  Drives drives_;
+  HeatBalance balance_;
+  FreeNodes free_;
+  HeatSolver solver_;
+  Linearised linear_;  // what the solver is prepared for
+  double scale_ = 0;   // gamma h [s]
+};
+
+}  // namespace
+
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model) {
+  return std::make_unique<EnthalpyScheme>(model);
+}
+
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model) {
+  return has_constant_properties(model) ? make_linear_scheme(model) : make_enthalpy_scheme(model);
+}
+
+}  // namespace scree::thermal

@@ -1,0 +1,98 @@
+#include "thermal/heat_balance.h"
+
+#include "thermal/exchange.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Of a curve, continued below 0 K by its value there, where an iteration may stray.
+double integral(const Curve& curve, double temperature) {
+  return temperature >= 0 ? curve.integral(temperature) : curve(0) * temperature;
+}
+double value(const Curve& curve, double temperature) {
+  return curve(std::max(temperature, 0.0));
+}
+
+using CurveLists = std::vector<Curve> VaryingProperties::*;
+
+// f(curve of the node's material, temperature of the node) of each node.
+template <class Value>
+Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, const Eigen::VectorXd& temperature,
+                         const Value& f) {
+  Eigen::VectorXd result(temperature.size());
+  for (const NodeId node : properties.material.ids()) {
+    result[node.value()] = f((properties.*list)[properties.material[node]], temperature[node.value()]);
+  }
+  return result;
+}
+
+SparseMatrix unit_conductance(const HeatModel& model) {
+  return model.varying ? model.varying->unit_conductance : SparseMatrix();
+}
+
+}  // namespace
+
+HeatBalance::HeatBalance(const HeatModel& model)
+    : model_(model), flows_(model.conductance), unit_flows_(unit_conductance(model)) {}
+
+Eigen::VectorXd HeatBalance::heating(const Eigen::VectorXd& temperature, const Drive& drive) const {
+  Eigen::VectorXd heat = drive.load - flows_.leaving(temperature);
+  if (!unit_flows_.empty()) {
+    heat -= unit_flows_.leaving(at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral));
+  }
+  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+    const Exchange& exchange = model_.exchanges[e];
+    Eigen::Index row = 0;
+    for (const NodeId node : exchange.on.nodes) {
+      heat[node.value()] += exchanged_heat(exchange.law, drive.exchanges[e], row++, temperature[node.value()]);
+    }
+  }
+  return heat;
+}
+
+Eigen::VectorXd HeatBalance::stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  if (!model_.varying) return model_.capacity.cwiseProduct(to - from);
+  const auto heat = &VaryingProperties::specific_heat;
+  const Eigen::VectorXd before = at_nodes(*model_.varying, heat, from, integral);
+  return model_.varying->mass.cwiseProduct(at_nodes(*model_.varying, heat, to, integral) - before);
+}
+
+Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {
+  Linearised result;
+  result.capacity = model_.capacity;
+  if (model_.varying) {
+    const VaryingProperties& properties = *model_.varying;
+    result.capacity = properties.mass.cwiseProduct(at_nodes(properties, &VaryingProperties::specific_heat, temperature, value));
+    if (!unit_flows_.empty()) {
+      result.conductivity = at_nodes(properties, &VaryingProperties::conductivity, temperature, value);
+    }
+  }
+  result.loss = Eigen::VectorXd::Zero(temperature.size());
+  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+    const Exchange& exchange = model_.exchanges[e];
+    Eigen::Index row = 0;
+    for (const NodeId node : exchange.on.nodes) {
+      result.loss[node.value()] += exchange_slope(exchange.law, drive.exchanges[e], row++, temperature[node.value()]);
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd HeatBalance::lost(const Eigen::VectorXd& change, const Linearised& at) const {
+  Eigen::VectorXd heat = flows_.leaving(change) + at.loss.cwiseProduct(change);
+  if (!unit_flows_.empty()) heat += unit_flows_.leaving(at.conductivity.cwiseProduct(change));
+  return heat;
+}
+
+double HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const {
+  const Exchange& with = model_.exchanges[exchange];
+  double heat = 0;
+  Eigen::Index row = 0;
+  for (const NodeId node : with.on.nodes) {
+    heat += exchanged_heat(with.law, drive.exchanges[exchange], row++, temperature[node.value()]);
+  }
+  return heat;
+}
+
+}  // namespace scree::thermal

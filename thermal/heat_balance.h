@@ -1,0 +1,47 @@
+// The two sides of the heat balance dH/dt = F(T, t): what each node stores and what flows into it.
+//
+// Storage: H = m int_0^T c dT, m the node's mass; C T where c does not depend on temperature. Only differences of H are used,
+// so energy is conserved whatever c(T) does.
+//
+// Conduction: where k depends on temperature, Kirchhoff's Phi = int_0^T k dT takes the place of k T at the nodes: the heat that
+// leaves is U Phi(T), U the blocks' matrix of eqs. (4)-(5) at 1 W/m/K (for a tensor k: its ratios). Flux is -grad Phi exactly,
+// so a steady k(T) costs no accuracy. Flows stay pairs of equal and opposite ones.
+#pragma once
+
+#include "thermal/drive.h"
+#include "thermal/flow_network.h"
+
+namespace scree::thermal {
+
+// C = dH/dT and J = -dF/dT = K + U diag(conductivity) + diag(loss), one entry per node each.
+struct Linearised {
+  Eigen::VectorXd capacity;      // [J/K]
+  Eigen::VectorXd loss;          // to surroundings [W/K]
+  Eigen::VectorXd conductivity;  // [W/m/K]; empty without U
+};
+
+class HeatBalance {
+ public:
+  explicit HeatBalance(const HeatModel& model);  // refers to it
+
+  // F: heat into each node, from its neighbours and from outside [W].
+  [[nodiscard]] Eigen::VectorXd heating(const Eigen::VectorXd& temperature, const Drive& drive) const;
+
+  // Heat that a change of temperature stores in each node [J].
+  [[nodiscard]] Eigen::VectorXd stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+
+  [[nodiscard]] Linearised linearised(const Eigen::VectorXd& temperature, const Drive& drive) const;
+
+  // J times a small change of temperature, at fixed nodes too [W].
+  [[nodiscard]] Eigen::VectorXd lost(const Eigen::VectorXd& change, const Linearised& at) const;
+
+  // Through one exchange [W].
+  [[nodiscard]] double exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const;
+
+ private:
+  const HeatModel& model_;
+  FlowNetwork flows_;
+  FlowNetwork unit_flows_;  // of U
+};
+
+}  // namespace scree::thermal

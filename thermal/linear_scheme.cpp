@@ -1,0 +1,119 @@
+// The scheme of sdirk2.h for constant properties: one matrix C + gamma h (K + B) per step size, B the convection. Loads,
+// temperatures of boundaries and of surroundings may change in time.
+//
+// Written in increments, which keeps rounding small near a steady state: with P1 the temperatures at the step's start but the
+// fixed nodes where stage 1 has them, P2 alike, and F at the times of the stages,
+//   M d1 = gamma h F(P1),    M d2 = C d1 + gamma h (F(P2) - F(P1))/from_first,    T1 = P1 + d1,  T2 = P2 + d1 + from_first d2.
+#include <limits>
+
+#include "thermal/free_nodes.h"
+#include "thermal/heat_solver.h"
+#include "thermal/sdirk2.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+
+namespace {
+
+using namespace sdirk2;
+
+class LinearScheme : public TimeScheme {
+ public:
+  explicit LinearScheme(const HeatModel& model)
+      : model_(model),
+        drives_(model),
+        balance_(model),
+        free_(model),
+        linear_(balance_.linearised(model.initial, drives_.at(0))),
+        capacity_(free_.gather(linear_.capacity)),
+        solver_(model, free_) {}
+
+  Step step(const Instant& from, double length) override {
+    if (length != prepared_) solver_.prepare(linear_, gamma * length);
+    prepared_ = length;
+    Stage first{1 - gamma, from.time + gamma * length, {}};
+    Stage last{gamma, from.time + length, {}};
+    const Drive& drive0 = drives_.at(from.time);
+    const Drive& drive1 = drives_.at(first.time);
+    const Drive& drive2 = drives_.at(last.time);
+    const Eigen::VectorXd start1 = held(model_, from.temperature, drive1);
+    const Eigen::VectorXd start2 = held(model_, from.temperature, drive2);
+
+    // Two columns: the temperatures, and the error, which nothing drives from outside.
+    const double scale = gamma * length;
+    Eigen::MatrixXd heat0(free_.size(), 2);  // gamma h F0
+    heat0.col(0) = scale * free_.gather(balance_.heating(from.temperature, drive0));
+    heat0.col(1) = -scale * free_.gather(balance_.lost(from.error, linear_));
+    Eigen::MatrixXd heat1 = heat0;
+    Eigen::VectorXd driven = Eigen::VectorXd::Zero(free_.size());
+    if (drives_.vary()) {
+      heat1.col(0) = scale * free_.gather(balance_.heating(start1, drive1));
+      driven = scale * free_.gather(balance_.heating(start2, drive2)) - heat1.col(0);
+    }
+    const Eigen::MatrixXd d1 = solver_.solve(heat1);
+    Eigen::MatrixXd rest = capacity_.asDiagonal() * d1;
+    rest.col(0) += driven / from_first;
+    const Eigen::MatrixXd d2 = solver_.solve(rest);
+    const Eigen::VectorXd local = local_error(heat0, d1, d2);
+
+    Step result;
+    const Eigen::MatrixXd change = free_.scatter(d1 + from_first * d2);
+    last.temperature = start2 + change.col(0);
+    result.change = last.temperature - from.temperature;
+    result.error = from.error + change.col(1) + free_.scatter(local);
+    result.local_error = local.lpNorm<Eigen::Infinity>();
+    if (drives_.vary()) {
+      first.temperature = start1 + free_.scatter(d1.col(0));
+      result.stages = {std::move(first), std::move(last)};
+    } else {  // one evaluation of the flows instead of two, as they are linear
+      result.stages = {{1, last.time, from.temperature + free_.scatter(d1.col(0) + (1 - gamma) * d2.col(0))}};
+    }
+    return result;
+  }
+
+  // The local error of a short step is third_order h^3 T'''.
+  double first_step(const Instant& from, double allowed) override {
+    Eigen::VectorXd derivative =
+        free_.gather(balance_.heating(from.temperature, drives_.at(from.time))).cwiseQuotient(capacity_);
+    for (int order = 2; order <= 3; ++order) {
+      derivative = -free_.gather(balance_.lost(free_.scatter(derivative), linear_)).cwiseQuotient(capacity_);
+    }
+    const double largest = derivative.lpNorm<Eigen::Infinity>();
+    return largest > 0 ? std::cbrt(allowed / (third_order * largest)) : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] double safety() const override { return 1 / least_ratio; }
+  [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
+  [[nodiscard]] std::string name() const override {
+    return "SDIRK2 (L-stable, second order) with steps from the tolerance; " + solver_.name();
+  }
+
+ private:
+  // Of the companion V = T - error, from gamma h F0 and the increments of both.
+  [[nodiscard]] Eigen::VectorXd local_error(const Eigen::MatrixXd& heat0, const Eigen::MatrixXd& d1,
+                                            const Eigen::MatrixXd& d2) const {
+    const auto of_companion = [](const Eigen::MatrixXd& columns) -> Eigen::VectorXd { return columns.col(0) - columns.col(1); };
+    StageHeats heats;
+    heats.start = of_companion(heat0);
+    heats.first = capacity_.cwiseProduct(of_companion(d1));
+    heats.last = from_first * capacity_.cwiseProduct(of_companion(d2 - d1)) + heats.first;
+    return sdirk2::local_error(heats, capacity_, [this](const Eigen::VectorXd& heat) { return solver_.solve(heat); });
+  }
+
+  const HeatModel& model_;
+  Drives drives_;
+  HeatBalance balance_;
+  FreeNodes free_;
+  Linearised linear_;         // the same at all times
+  Eigen::VectorXd capacity_;  // of the free nodes [J/K]
+  HeatSolver solver_;
+  double prepared_ = 0;  // the step the solver is prepared for [s]
+};
+
+}  // namespace
+
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model) {
+  return std::make_unique<LinearScheme>(model);
+}
+
+}  // namespace scree::thermal

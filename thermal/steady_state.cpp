@@ -1,0 +1,141 @@
+// Newton's iteration on F(T) = 0 at the free nodes, with a line search on the sum of |F|.
+//
+// Where heat is radiated it starts from above: F falls ever faster with T, so that from there the iteration comes down without
+// overshooting, by a quarter at least of what the radiation is too hot. From below the first step would overshoot by
+// (T_end/T_0)^3.
+#include "thermal/steady_state.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "thermal/anchors.h"
+#include "thermal/exchange.h"
+#include "thermal/heat_solver.h"
+#include "thermal/problems.h"
+
+namespace scree::thermal {
+
+namespace {
+
+constexpr int most_iterations = 200;
+constexpr int most_halvings = 30;
+constexpr double left_of_turnover = 1e-13;
+constexpr double rounding = 1e-12;  // of a temperature
+
+class SteadySolver {
+ public:
+  explicit SteadySolver(const HeatModel& model)
+      : model_(model), drives_(model), drive_(drives_.at(0)), balance_(model), free_(model), solver_(model, free_) {}
+
+  HeatState solve() {
+    HeatState state;
+    state.given.include(drive_.fixed);
+    for (const ExchangeRates& rates : drive_.exchanges) state.given.include(rates.surroundings);
+    state.temperature = first_guess(state.given.largest);
+    Eigen::VectorXd heating = free_heating(state.temperature);
+    double moved = 0;
+    double gained = 0;
+    while (!converged(state.temperature, heating, moved, gained)) {
+      if (state.steps == most_iterations) refuse(state.temperature, heating);
+      solver_.prepare_steady(balance_.linearised(state.temperature, drive_));
+      const double before = heating.lpNorm<1>();
+      moved = take(free_.scatter(solver_.solve(heating)), state.temperature, heating);
+      gained = heating.lpNorm<1>() / before;
+      ++state.steps;
+    }
+    state.factorisations = solver_.factorisations();
+    state.error = Eigen::VectorXd::Zero(state.temperature.size());
+    state.reached.include(state.temperature);
+    state.ledger = flows(state.temperature);
+    return state;
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd free_heating(const Eigen::VectorXd& temperature) const {
+    return free_.gather(balance_.heating(temperature, drive_));
+  }
+
+  // The initial temperatures, or one that the radiating surfaces hardly exceed.
+  [[nodiscard]] Eigen::VectorXd first_guess(double largest_given) const {
+    double radiating = 0;  // [W/K4]
+    for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+      if (model_.exchanges[e].law == Exchange::Law::radiation) radiating += drive_.exchanges[e].factor.sum();
+    }
+    if (radiating == 0) return held(model_, model_.initial, drive_);
+    const double applied = drive_.load.cwiseMax(0.0).sum();
+    const double hot = std::pow(std::pow(largest_given, 4) + applied / radiating, 0.25);
+    return held(model_, Eigen::VectorXd::Constant(model_.initial.size(), hot), drive_);
+  }
+
+  // The whole of the change, or as much as brings the balance nearer; says how far that is [K].
+  double take(const Eigen::VectorXd& change, Eigen::VectorXd& temperature, Eigen::VectorXd& heating) const {
+    double share = 1;
+    const double before = heating.lpNorm<1>();
+    for (int halving = 0; halving <= most_halvings; ++halving, share /= 2) {
+      const Eigen::VectorXd tried = temperature + share * change;
+      const Eigen::VectorXd then = free_heating(tried);
+      if (!(then.lpNorm<1>() < before) && halving < most_halvings && share * change.lpNorm<Eigen::Infinity>() > rounding) {
+        continue;
+      }
+      temperature = tried;
+      heating = then;
+      break;
+    }
+    return share * change.lpNorm<Eigen::Infinity>();
+  }
+
+  [[nodiscard]] bool converged(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating, double moved,
+                               double gained) const {
+    const double left = heating.lpNorm<1>();
+    if (left <= left_of_turnover * flows(temperature).turnover) return true;
+    const bool settled = moved > 0 && moved <= rounding * temperature.lpNorm<Eigen::Infinity>();
+    return settled && gained > 0.1;
+  }
+
+  [[nodiscard]] Ledger flows(const Eigen::VectorXd& temperature) const {
+    Ledger ledger;
+    ledger.by_boundary.assign(model_.holds.size(), 0.0);
+    const Eigen::VectorXd heating = balance_.heating(temperature, drive_);
+    for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+      ledger.by_boundary[model_.fixed_hold[i]] -= heating[model_.fixed_nodes[i].value()];
+    }
+    ledger.by_applied = drive_.by_load;
+    for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+      ledger.by_surroundings.push_back(balance_.exchanged(e, temperature, drive_));
+    }
+    for (const auto* entries : {&ledger.by_boundary, &ledger.by_applied, &ledger.by_surroundings}) {
+      for (const double flow : *entries) ledger.turnover += std::abs(flow);
+    }
+    return ledger;
+  }
+
+  [[noreturn]] void refuse(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating) const {
+    throw RunError(fmt::format(
+        "The steady state was not found: after {} iterations {:.3g} W of {:.3g} W do not balance, at "
+        "temperatures from {:g} to {:g} K. Look at properties that change abruptly with temperature, or run "
+        "in time to the steady state",
+        most_iterations, heating.lpNorm<1>(), flows(temperature).turnover, temperature.minCoeff(), temperature.maxCoeff()));
+  }
+
+  const HeatModel& model_;
+  Drives drives_;
+  const Drive& drive_;
+  HeatBalance balance_;
+  FreeNodes free_;
+  HeatSolver solver_;
+};
+
+}  // namespace
+
+HeatState steady_state(const HeatModel& model) {
+  if (Drives(model).vary()) {
+    throw InputError(problem("heat.steady", "true", "must have temperatures, flows and coefficients that do not change in time",
+                             "Leave the time out of expressions and tables, or run in time"));
+  }
+  check_anchors(model);
+  return SteadySolver(model).solve();
+}
+
+}  // namespace scree::thermal

@@ -1,0 +1,16 @@
+// Temperatures that do not change any more: F(T) = 0, directly.
+#pragma once
+
+#include "thermal/heat_run.h"
+
+namespace scree::thermal {
+
+// The ledger holds flows [W] instead of heat, none of it stored, and its residual says how well they balance; `steps` counts
+// the iterations. One iteration, which is one factorisation, where the properties are constant.
+//
+// Throws InputError if something changes in time, and for blocks from which no path leads to a held temperature or to
+// surroundings: nothing says how warm they are, and what is put into them cannot leave. Throws RunError if the iteration does
+// not converge.
+HeatState steady_state(const HeatModel& model);
+
+}  // namespace scree::thermal
