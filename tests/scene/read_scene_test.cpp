@@ -38,8 +38,8 @@ TEST(ReadScene, FillsTheStructsInSi) {
   ASSERT_TRUE(scene.settle && scene.contact && scene.heat);
   EXPECT_EQ(initial_temperatures(scene), std::vector<double>(2, 298.15));
   ASSERT_EQ(scene.heat->boundaries.size(), 3u);
-  EXPECT_EQ(std::get<thermal::FixedTemperature>(scene.heat->boundaries[0].condition).temperature, 373.15);
-  EXPECT_EQ(std::get<thermal::HeatFlux>(scene.heat->boundaries[1].condition).flux, 5000);
+  EXPECT_EQ(std::get<thermal::FixedTemperature>(scene.heat->boundaries[0].condition).temperature.constant(), 373.15);
+  EXPECT_EQ(std::get<thermal::HeatFlux>(scene.heat->boundaries[1].condition).flux.constant(), 5000);
   EXPECT_EQ(scene.heat->boundaries[1].region.body, BodyId{1});
   EXPECT_EQ(scene.heat->boundaries[2].name, "flow of block");
   EXPECT_EQ(scene.heat->time.until, 43200);
@@ -118,7 +118,7 @@ TEST(ReadScene, OverridesReachEverywhere) {
       scene_of(whole_scene, {"bodies.block.mesh_size=8 cm", "heat.boundaries[0].temperature=50 degC", "output.probes.low.2=0.1",
                              "settle=null", "heat.initial={plate: 300, block: 310}"});
   EXPECT_EQ(scene.bodies[1].mesh_size, 0.08);
-  EXPECT_EQ(std::get<thermal::FixedTemperature>(scene.heat->boundaries[0].condition).temperature, 323.15);
+  EXPECT_EQ(std::get<thermal::FixedTemperature>(scene.heat->boundaries[0].condition).temperature.constant(), 323.15);
   EXPECT_EQ(scene.probes[0].point.z(), 0.1);
   EXPECT_FALSE(scene.settle);
   EXPECT_EQ(initial_temperatures(scene), (std::vector<double>{300, 310}));

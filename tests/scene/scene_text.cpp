@@ -42,7 +42,7 @@ std::string text_of(const std::optional<Conductivity>& k) {
 }
 
 std::string text_of(const mesh::Box& box) {
-  return "box " + text_of(box.size);
+  return fmt::format("box {}", text_of(box.size));
 }
 std::string text_of(const mesh::Sphere& sphere) {
   return fmt::format("sphere {}", sphere.diameter);
@@ -78,13 +78,13 @@ std::string text_of(const Function& f) {
   return fmt::format("{} {} {}", f(Eigen::Vector3d(0.1, 0.2, 0.3), 7), f.varies_in_place(), f.varies_in_time());
 }
 std::string text_of(const thermal::FixedTemperature& c) {
-  return "temperature " + text_of(c.temperature);
+  return fmt::format("temperature {}", text_of(c.temperature));
 }
 std::string text_of(const thermal::HeatFlux& c) {
-  return "flux " + text_of(c.flux);
+  return fmt::format("flux {}", text_of(c.flux));
 }
 std::string text_of(const thermal::HeatFlow& c) {
-  return "flow " + text_of(c.flow);
+  return fmt::format("flow {}", text_of(c.flow));
 }
 std::string text_of(const thermal::Convection& c) {
   return fmt::format("convection {} {}", text_of(c.coefficient), text_of(c.surroundings));
@@ -112,7 +112,7 @@ std::string text_of(const std::optional<contact::Model>& model) {
 
 std::string text_of(const thermal::HeatOptions& heat) {
   std::string text = "initial";
-  for (const Function& value : heat.initial_temperature) text += " " + text_of(value);
+  for (const Function& value : heat.initial_temperature) text += fmt::format(" {}", text_of(value));
   for (const auto& b : heat.boundaries) {
     text += fmt::format("\nboundary {} {} {}", b.name, text_of(b.region),
                         std::visit([](const auto& c) { return text_of(c); }, b.condition));
@@ -201,7 +201,7 @@ std::string values_of(const Scene& scene) {
   }
   if (scene.packing) text += "\npacking " + scene.packing->string();
   if (scene.contact) text += fmt::format("\ncontact {} {}", scene.contact->indentation, scene.contact->tolerance);
-  if (scene.heat) text += "\nheat " + text_of(*scene.heat);
+  if (scene.heat) text += fmt::format("\nheat {}", text_of(*scene.heat));
   if (const auto& box = scene.effective_window) {
     text += fmt::format("\neffective {} {}", text_of(Eigen::Vector3d(box->min())), text_of(Eigen::Vector3d(box->max())));
   }
