@@ -62,11 +62,20 @@ class Checker {
     if (!mapping) return refuse(checked, describe(value));
     checked.sound = true;
     const KeyNode* any = node.find("*");
-    if (any != nullptr) return check_names(value, *any, checked);
+    if (any != nullptr && !holds_keys(value, node)) return check_names(value, *any, checked);
     for (const InputEntry& entry : value.entries) check_entry(entry, node, checked);
     check_choices(value, node, checked);
-    for (const auto& [name, child] : node.children) fill_in(value, name, *child, checked);
+    for (const auto& [name, child] : node.children) {
+      if (name != "*") fill_in(value, name, *child, checked);
+    }
     sort_entries(node, checked);
+  }
+
+  // A map of the keys below, where names the user chooses could stand as well.
+  static bool holds_keys(const InputValue& value, const KeyNode& node) {
+    if (node.children.size() == 1 || value.entries.empty()) return false;
+    return std::all_of(value.entries.begin(), value.entries.end(),
+                       [&](const InputEntry& entry) { return entry.name != "*" && node.find(entry.name) != nullptr; });
   }
 
   // The table's order, so that equal scenes give equal effective scenes.

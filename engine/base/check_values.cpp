@@ -14,6 +14,13 @@ namespace {
 
 using Kind = InputValue::Kind;
 
+// Who wrote one number need not hear of the other forms.
+Key as_single(Key key) {
+  key.depends = key.type == KeyType::quantity ? Depends::on_nothing : key.depends;
+  if (key.count == Count::one_or_per_dimension) key.count = Count::one;
+  return key;
+}
+
 // What is wrong with one value, and the checked value it belongs to.
 struct Place {
   const Key& key;
@@ -22,7 +29,7 @@ struct Place {
   std::vector<Problem>& problems;
 
   void refuse(const InputValue& value, const std::string& reason, const std::string& suggestion) const {
-    std::string rule = rule_words(key, dimension);
+    std::string rule = rule_words(value.kind == Kind::scalar ? as_single(key) : key, dimension);
     if (!reason.empty()) rule += "; " + reason;
     problems.push_back({value.where, checked.path, describe(value), rule, suggestion});
     checked.sound = false;
@@ -74,9 +81,22 @@ double one_number(const InputValue& value, const Place& place) {
   return place.key.type == KeyType::integer ? integer_value(value, place) : quantity_value(value, place);
 }
 
+// One number of a list.
+void add_item(const InputValue& value, Key key, const std::string& path, const Place& place) {
+  key.count = Count::one;
+  key.depends = Depends::on_nothing;
+  Checked item;
+  item.path = path;
+  check_value(value, key, place.dimension, item, place.problems);
+  place.checked.texts.push_back(item.text);
+  place.checked.numbers.push_back(item.number());
+  place.checked.sound = place.checked.sound && item.sound;
+}
+
 void check_numbers(const InputValue& value, const Place& place) {
   Checked& checked = place.checked;
-  if (place.key.count == Count::one) {
+  const bool single = place.key.count == Count::one_or_per_dimension && value.kind != Kind::list;
+  if (place.key.count == Count::one || single) {
     checked.text = value.text;
     checked.numbers = {one_number(value, place)};
     return;
@@ -88,15 +108,39 @@ void check_numbers(const InputValue& value, const Place& place) {
     place.refuse(value, is_list ? fmt::format("it has {}", value.items.size()) : "", "");
     return;
   }
-  Key item_key = place.key;
-  item_key.count = Count::one;
-  for (std::size_t i = 0; i < wanted; ++i) {
-    Checked item;
-    item.path = fmt::format("{}[{}]", checked.path, i);
-    check_value(value.items[i], item_key, place.dimension, item, place.problems);
-    checked.texts.push_back(item.text);
-    checked.numbers[i] = item.number();
-    checked.sound = checked.sound && item.sound;
+  checked.numbers.clear();
+  for (std::size_t i = 0; i < wanted; ++i) add_item(value.items[i], place.key, fmt::format("{}[{}]", checked.path, i), place);
+}
+
+// A table's argument is above the one before.
+void check_order(const InputValue& pair, const Place& place) {
+  const std::vector<double>& numbers = place.checked.numbers;
+  const std::size_t count = numbers.size();
+  if (!place.checked.sound || count < 4 || numbers[count - 2] > numbers[count - 4]) return;
+  place.problems.push_back({pair.items.front().where, place.checked.path, describe(pair.items.front()),
+                            "must be above the one before", "A jump is two places close together"});
+  place.checked.sound = false;
+}
+
+// A file's name, or pairs of numbers: `texts` and `numbers` hold argument and value in turn.
+void check_table(const InputValue& value, const Place& place) {
+  Checked& checked = place.checked;
+  if (value.kind == Kind::scalar && !value.text.empty()) {
+    checked.text = value.text;
+    return;
+  }
+  if (value.kind != Kind::list || value.items.empty()) return place.refuse(value, "", "");
+  Key argument = place.key;
+  argument.type = KeyType::quantity;
+  Key result = argument;
+  argument.quantity = argument_of(place.key);
+  argument.range = {};
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    const InputValue& pair = value.items[i];
+    if (pair.kind != Kind::list || pair.items.size() != 2) return place.refuse(pair, "", "");
+    add_item(pair.items[0], argument, fmt::format("{}[{}][0]", checked.path, i), place);
+    add_item(pair.items[1], result, fmt::format("{}[{}][1]", checked.path, i), place);
+    check_order(pair, place);
   }
 }
 
@@ -129,6 +173,7 @@ void check_value(const InputValue& value, const Key& key, int dimension, Checked
   const Place place{key, dimension, checked, problems};
   checked.sound = true;
   if (key.type == KeyType::quantity || key.type == KeyType::integer) return check_numbers(value, place);
+  if (key.type == KeyType::table) return check_table(value, place);
   checked.text = value.text;
   if (value.kind != Kind::scalar) return place.refuse(value, "", "");
   if (key.type == KeyType::flag) return check_flag(value, place);

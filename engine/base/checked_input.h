@@ -23,7 +23,7 @@ struct Checked {
   bool sound = false;              // the value follows the key's rule; else its numbers are 0 and its text is as written
   bool is_map = false;             // has entries
   std::string text;                // of a single value, as written
-  std::vector<std::string> texts;  // of a list of numbers, as written
+  std::vector<std::string> texts;  // of a list of numbers, as written; of a table argument and value in turn
   std::vector<double> numbers;     // in SI; a flag is 1 or 0
   std::vector<CheckedEntry> entries;
   std::vector<Checked> items;

@@ -79,9 +79,10 @@ class Tabulated : public Function::Form {
   }
   [[noreturn]] void refuse(const std::string& value) const {
     const char* unit = argument_ == 't' ? "s" : "m";
-    throw InputError(rule.problem(
-        value, fmt::format("the table {} reaches from {:g} to {:g} {}", file_, table_.first(), table_.last(), unit),
-        "Add the missing rows; a table is not continued beyond its ends"));
+    throw InputError(rule.problem(value,
+                                  fmt::format("the table{}{} reaches from {:g} to {:g} {}", file_.empty() ? "" : " ", file_,
+                                              table_.first(), table_.last(), unit),
+                                  "Add the missing rows; a table is not continued beyond its ends"));
   }
 
   LinearTable table_;
@@ -108,6 +109,12 @@ Function Function::from_table(const std::filesystem::path& file, ValueRule rule)
       {"time", quantity::time}, {"x", quantity::length}, {"y", quantity::length}, {"z", quantity::length}};
   Function function;
   function.form_ = std::make_shared<Tabulated>(read_table(file, arguments, rule), file.string(), rule);
+  return function;
+}
+
+Function Function::from_table(LinearTable table, ValueRule rule) {
+  Function function;
+  function.form_ = std::make_shared<Tabulated>(ReadTable{"time", std::move(table)}, "", rule);
   return function;
 }
 

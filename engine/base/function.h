@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/base/linear_table.h"
 #include "engine/base/units.h"
 #include "engine/base/value_rule.h"
 
@@ -24,6 +25,9 @@ class Function {
 
   // Over time, x, y or z, as the head of the file's first column says. Throws InputError.
   static Function from_table(const std::filesystem::path& file, ValueRule rule);
+
+  // Over time [s], with values that are sound already.
+  static Function from_table(LinearTable table, ValueRule rule);
 
   // Throws InputError that names place and time where the value breaks the rule or the table ends.
   double operator()(const Eigen::Vector3d& place, double time) const;

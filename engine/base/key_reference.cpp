@@ -43,7 +43,7 @@ std::string section(const std::string& path) {
 std::string key_reference(const KeyTable& table, std::string_view prefix) {
   std::vector<Row> rows;
   for (const Key& key : table.keys()) {
-    if (key.path.starts_with(prefix)) {
+    if (key.path.starts_with(prefix) && !key.implied) {
       rows.push_back({key.path, without_must_be(rule_words(key, 0)), fallback(key), meaning(key)});
     }
   }

@@ -22,6 +22,9 @@ class KeyRow {
   KeyRow range(Range range) const {
     return with([&](Key& key) { key.range = range; });
   }
+  KeyRow depends(Depends depends) const {
+    return with([&](Key& key) { key.depends = depends; });
+  }
   KeyRow words(std::vector<std::string> words) const {
     return with([&](Key& key) { key.words = words; });
   }

@@ -29,14 +29,33 @@ Json number_schema(const Key& key) {
   return Json{{"anyOf", Json::array({number, Json{{"type", "string"}, {"pattern", quantity_pattern}}})}};
 }
 
+// A file's name, or pairs.
+Json table_schema(const Key& key) {
+  Key argument;
+  argument.type = KeyType::quantity;
+  argument.quantity = argument_of(key);
+  Key value = key;
+  value.type = KeyType::quantity;
+  const Json pair{{"type", "array"},
+                  {"prefixItems", Json::array({number_schema(argument), number_schema(value)})},
+                  {"minItems", 2},
+                  {"maxItems", 2}};
+  const Json pairs{{"type", "array"}, {"items", pair}, {"minItems", 1}};
+  return Json{{"anyOf", Json::array({Json{{"type", "string"}}, pairs})}};
+}
+
 Json leaf_schema(const Key& key) {
   switch (key.type) {
     case KeyType::quantity:
     case KeyType::integer: {
       if (key.count == Count::one) return number_schema(key);
       const bool four = key.count == Count::four;
-      return Json{{"type", "array"}, {"items", number_schema(key)}, {"minItems", four ? 4 : 2}, {"maxItems", four ? 4 : 3}};
+      const Json list{{"type", "array"}, {"items", number_schema(key)}, {"minItems", four ? 4 : 2}, {"maxItems", four ? 4 : 3}};
+      if (key.count == Count::one_or_per_dimension) return Json{{"anyOf", Json::array({number_schema(key), list})}};
+      return list;
     }
+    case KeyType::table:
+      return table_schema(key);
     case KeyType::flag:
       return Json{{"type", "boolean"}};
     case KeyType::word:
@@ -88,17 +107,20 @@ void add_choices(const KeyNode& node, Json& schema) {
   }
 }
 
-Json map_schema(const KeyNode& node) {
+Json names_schema(const KeyNode& node, const KeyNode& any) {
   Json schema{{"type", "object"}};
-  if (const KeyNode* any = node.find("*")) {
-    schema["propertyNames"] = Json{{"pattern", name_pattern}};
-    schema["additionalProperties"] = node_schema(*any);
-    if (node.key->type == KeyType::names && node.key->range.low >= 1) schema["minProperties"] = 1;
-    return schema;
-  }
+  schema["propertyNames"] = Json{{"pattern", name_pattern}};
+  schema["additionalProperties"] = node_schema(any);
+  if (node.key->type == KeyType::names && node.key->range.low >= 1) schema["minProperties"] = 1;
+  return schema;
+}
+
+Json keys_schema(const KeyNode& node) {
+  Json schema{{"type", "object"}};
   schema["properties"] = Json::object();
   Json required = Json::array();
   for (const auto& [name, child] : node.children) {
+    if (name == "*") continue;
     schema["properties"][name] = node_schema(*child);
     const bool always = child->key->required && child->key->choice.empty() && child->key->only.empty();
     if (always) required.push_back(name);
@@ -107,6 +129,13 @@ Json map_schema(const KeyNode& node) {
   schema["additionalProperties"] = false;
   add_choices(node, schema);
   return schema;
+}
+
+Json map_schema(const KeyNode& node) {
+  const KeyNode* any = node.find("*");
+  if (any == nullptr) return keys_schema(node);
+  if (node.children.size() == 1) return names_schema(node, *any);
+  return Json{{"anyOf", Json::array({names_schema(node, *any), keys_schema(node)})}};
 }
 
 Json node_schema(const KeyNode& node) {

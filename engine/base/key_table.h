@@ -24,7 +24,15 @@ enum class KeyType {
   word,  // one of a few
   name,  // refers to something the user named
   text,
-  path,  // of a file, relative to the input file
+  path,   // of a file, relative to the input file
+  table,  // pairs of argument and value: a path of a CSV file, or a list
+};
+
+// What a quantity may depend on. One that does is also accepted as {expression, unit} or as {table}.
+enum class Depends {
+  on_nothing,
+  on_place_and_time,  // x, y, z and t
+  on_temperature,     // T
 };
 
 // Another key is given (or not), by its pattern, with `*` and `[]` standing for the same names and items as in the key that has
@@ -38,7 +46,12 @@ struct Condition {
 };
 
 // How many numbers a quantity or integer key holds.
-enum class Count { one, per_dimension, four };
+enum class Count {
+  one,
+  per_dimension,
+  one_or_per_dimension,
+  four,
+};
 
 struct Key {
   std::string path;  // pattern: materials.*.density, heat.boundaries[].body
@@ -47,15 +60,18 @@ struct Key {
   Quantity quantity = quantity::number;
   Range range = {};
   Count count = Count::one;
-  std::vector<std::string> words = {};  // of a word
-  std::string fallback = {};            // YAML that stands for a missing key; empty: there is none
-  std::string otherwise = {};           // what happens without the key, if there is no fallback, for the reference
+  Depends depends = Depends::on_nothing;  // of a table: its first column
+  std::vector<std::string> words = {};    // of a word
+  std::string fallback = {};              // YAML that stands for a missing key; empty: there is none
+  std::string otherwise = {};             // what happens without the key, if there is no fallback, for the reference
   bool required = false;
   std::string choice = {};  // of the keys beside each other with one choice at most one is given; exactly one if required
   std::vector<Condition> only = {};  // the key has a use only if all hold
+  bool implied = false;              // follows from the key above it, whose words in the reference say so
 };
 
-// A key among its neighbours. A key of type quantity may have keys below it: then either form is accepted.
+// A key among its neighbours. A key of type quantity may have keys below it: then either form is accepted. A map whose names
+// are all among the keys below is of these, any other of `*`.
 struct KeyNode {
   const Key* key = nullptr;
   std::vector<std::pair<std::string, std::unique_ptr<KeyNode>>> children;  // named `*` for user-chosen names, `[]` for items
@@ -66,7 +82,7 @@ struct KeyNode {
 
 class KeyTable {
  public:
-  // Every key's parent must stand before it.
+  // Every key's parent must stand before it. A quantity that depends on something gets the keys of its other forms.
   explicit KeyTable(std::vector<Key> keys);
 
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
@@ -77,6 +93,9 @@ class KeyTable {
   std::vector<Key> keys_;
   KeyNode root_;
 };
+
+// What the first column of a table holds: a temperature, or a time.
+Quantity argument_of(const Key& key);
 
 // materials.*.density -> materials, *, density; heat.boundaries[].body -> heat, boundaries, [], body
 std::vector<std::string> split_path(std::string_view path);

@@ -7,14 +7,24 @@ namespace scree {
 
 namespace {
 
+void write_pairs(const std::vector<std::string>& texts, YAML::Emitter& out) {
+  out << YAML::Flow << YAML::BeginSeq;
+  for (std::size_t i = 0; i + 1 < texts.size(); i += 2) {
+    out << YAML::Flow << YAML::BeginSeq << texts[i] << texts[i + 1] << YAML::EndSeq;
+  }
+  out << YAML::EndSeq;
+}
+
 void write_leaf(const Checked& checked, YAML::Emitter& out) {
+  if (checked.key->type == KeyType::table && !checked.texts.empty()) return write_pairs(checked.texts, out);
   if (!checked.texts.empty()) {
     out << YAML::Flow << YAML::BeginSeq;
     for (const std::string& text : checked.texts) out << text;
     out << YAML::EndSeq;
     return;
   }
-  const bool free = checked.key->type == KeyType::text || checked.key->type == KeyType::path;
+  const KeyType type = checked.key->type;
+  const bool free = type == KeyType::text || type == KeyType::path || type == KeyType::table;
   if (free) out << YAML::DoubleQuoted;
   out << checked.text;
 }

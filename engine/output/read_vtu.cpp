@@ -13,6 +13,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include "engine/output/open_vtu.h"
+
 namespace scree::output {
 
 namespace {
@@ -81,7 +83,7 @@ void add_cell(vtkUnstructuredGrid& grid, vtkIdType c, mesh::RawMesh& raw) {
 
 }  // namespace
 
-mesh::RawMesh read_vtu(const std::filesystem::path& file) {
+vtkSmartPointer<vtkUnstructuredGrid> open_vtu(const std::filesystem::path& file) {
   std::string reason;
   vtkNew<vtkCallbackCommand> on_error;
   on_error->SetCallback(keep_first_error);
@@ -96,7 +98,12 @@ mesh::RawMesh read_vtu(const std::filesystem::path& file) {
   reader->Update();
   if (!reason.empty()) throw std::runtime_error(reason);
   if (reader->GetErrorCode() != 0) throw std::runtime_error("VTK cannot read it");
-  vtkUnstructuredGrid& grid = *reader->GetOutput();
+  return reader->GetOutput();
+}
+
+mesh::RawMesh read_vtu(const std::filesystem::path& file) {
+  const vtkSmartPointer<vtkUnstructuredGrid> opened = open_vtu(file);
+  vtkUnstructuredGrid& grid = *opened;
   mesh::RawMesh raw;
   for (vtkIdType p = 0; p < grid.GetNumberOfPoints(); ++p) {
     Eigen::Vector3d point;

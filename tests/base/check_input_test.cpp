@@ -61,6 +61,92 @@ TEST(CheckInput, TheEffectiveInputChecksToItself) {
   EXPECT_TRUE(problems.empty());
 }
 
+// A quantity in all its forms, alone and where names could stand as well.
+const KeyTable& weather() {
+  static const KeyTable table(std::vector<Key>{
+      row("wind", KeyType::quantity, "Speed.", quantity::speed, not_negative).depends(Depends::on_place_and_time),
+      row("air", KeyType::quantity, "Of all towns, or of each.", quantity::temperature)
+          .depends(Depends::on_place_and_time)
+          .required(),
+      row("air.*", KeyType::quantity, "Of this town.", quantity::temperature),
+      row("ice", KeyType::quantity, "Conductivity.", quantity::conductivity, positive)
+          .count(Count::one_or_per_dimension)
+          .depends(Depends::on_temperature),
+      row("ice.ratio", KeyType::quantity, "Ratio.").count(Count::per_dimension),
+  });
+  return table;
+}
+
+struct Outcome {
+  Checked checked;
+  std::string wrong;
+};
+Outcome weather_of(const std::string& yaml) {
+  std::vector<Problem> problems;
+  Outcome outcome{check_input(parse_yaml(yaml, "w"), weather(), 2, problems), ""};
+  for (const Problem& problem : problems) outcome.wrong += to_string(problem) + "\n";
+  return outcome;
+}
+
+TEST(CheckInput, AQuantityThatDependsOnSomethingHasThreeForms) {
+  const Outcome outcome = weather_of(
+      "wind: {expression: 3 + t, unit: km/h}\n"
+      "air: {table: air.csv}\n"
+      "ice: {table: [[-10 degC, 2 W/m/K], [273.15, 2.2]], ratio: [1, 0.5]}\n");
+  ASSERT_EQ(outcome.wrong, "");
+  EXPECT_EQ(outcome.checked.at("wind").at("expression").text, "3 + t");
+  EXPECT_EQ(outcome.checked.at("air").at("table").text, "air.csv");
+  const Checked& table = outcome.checked.at("ice").at("table");
+  ASSERT_EQ(table.numbers.size(), 4u);
+  EXPECT_NEAR(table.numbers[0], 263.15, 1e-9);
+  EXPECT_EQ(table.numbers[3], 2.2);
+  EXPECT_EQ(weather_of("air: 3\nwind: 4\nice: [1, 2]").checked.at("ice").vector(), Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(weather_of("air: 3\nice: 5").checked.at("ice").number(), 5);
+}
+
+TEST(CheckInput, NamesAndFormsAreToldApart) {
+  EXPECT_EQ(weather_of("air: {york: 3, table: 5}").checked.at("air").at("table").number(), 5) << "a town called table";
+  EXPECT_EQ(weather_of("air: {table: 5.csv}").checked.at("air").at("table").text, "5.csv");
+}
+
+TEST(CheckInput, FormsThatDoNotFitAreRefused) {
+  EXPECT_EQ(weather_of("air: 1\nwind: {expression: t, table: a}").wrong,
+            "w:2:23: wind.table is given beside expression (must have exactly one of expression, table). Keep one of them\n");
+  EXPECT_EQ(weather_of("air: 1\nwind: {table: a, unit: m/s}").wrong,
+            "w:2:18: wind.unit is without use (of use only with wind.expression). Take it out\n");
+  EXPECT_EQ(weather_of("air: 1\nice: {table: [[3, 1], [2, 1]]}").wrong,
+            "w:2:24: ice.table is 2 (must be above the one before). A jump is two places close together\n");
+  EXPECT_EQ(weather_of("air: 1\nice: {table: [[3, -1]]}").wrong,
+            "w:2:19: ice.table[0][1] is -1 (must be positive, W/m/K). Did you mean 1?\n");
+  EXPECT_EQ(weather_of("air: 1\nice: {table: [[3 m, 1]]}").wrong,
+            "w:2:16: ice.table[0][0] is 3 m (must be a temperature, K; m is no unit of temperature). Did you mean 3 K?\n");
+  EXPECT_EQ(weather_of("air: 1\nice: {table: [3, 1]}").wrong,
+            "w:2:15: ice.table is 3 (must be a CSV file, or a list of pairs of temperature [K] and positive, W/m/K)\n");
+  EXPECT_EQ(weather_of("air: 1\nwind: fast").wrong,
+            "w:2:7: wind is fast (must be not negative, m/s; not a number, with or without a unit)\n");
+  EXPECT_EQ(weather_of("air: 1\nwind: [3]").wrong,
+            "w:2:7: wind is a list (must be not negative, m/s; or {expression, unit} in x, y, z, t, or {table})\n");
+}
+
+TEST(CheckInput, TheEffectiveInputKeepsEveryForm) {
+  const std::string yaml =
+      "wind: {expression: \"t > 3 ? 1 : 2\", unit: km/h}\nair: {york: 3}\nice: {table: [[1, 2], [3 degC, 4]], ratio: [1, 2]}\n";
+  const std::string once = to_yaml(weather_of(yaml).checked);
+  EXPECT_EQ(once,
+            "wind:\n  expression: \"t > 3 ? 1 : 2\"\n  unit: \"km/h\"\nair:\n  york: 3\n"
+            "ice:\n  table: [[1, 2], [3 degC, 4]]\n  ratio: [1, 2]\n");
+  EXPECT_EQ(to_yaml(weather_of(once).checked), once);
+}
+
+TEST(KeyReference, AFormIsPartOfItsQuantity) {
+  const std::string text = key_reference(weather(), "wind");
+  EXPECT_THAT(text, testing::HasSubstr("wind  not negative, m/s; or {expression, unit} in x, y, z, t, or {table}"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("wind.expression")));
+  const std::string schema = key_schema(weather(), "w");
+  EXPECT_THAT(schema, testing::HasSubstr("\"expression\""));
+  EXPECT_THAT(schema, testing::HasSubstr("\"prefixItems\""));
+}
+
 TEST(CheckInput, EveryKindOfMistakeHasItsText) {
   EXPECT_EQ(wrong_with(""), "z:1:1: zoo is missing (must be a map of names, at least 1)\n");
   EXPECT_EQ(wrong_with("3"), "z:1:1: the file is 3 (must be a map of keys)\n");

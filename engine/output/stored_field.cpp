@@ -1,0 +1,195 @@
+#include "engine/output/stored_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <vtkDataArray.h>
+#include <vtkGenericCell.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkStaticCellLocator.h>
+
+#include "engine/output/open_vtu.h"
+#include "engine/output/series_index.h"
+
+namespace scree::output {
+
+namespace {
+
+constexpr double rounding = 1e-9;  // of the mesh's extent: nodes this near to each other are the same
+constexpr double inwards = 1e-6;   // of a block's extent, see the header
+
+[[noreturn]] void refuse(const StoredField& stored, const std::string& value, const std::string& rule,
+                         const std::string& suggestion) {
+  Problem problem;
+  problem.where = stored.where;
+  problem.key = "heat.initial.from";
+  problem.value = value;
+  problem.rule = rule;
+  problem.suggestion = suggestion;
+  throw InputError(std::move(problem));
+}
+
+// The frame at the wanted time, or the last.
+std::filesystem::path frame_of(const StoredField& stored, const std::filesystem::path& index) {
+  const std::vector<SeriesEntry> entries = read_index(index);
+  if (entries.empty()) refuse(stored, index.string(), "must have a frame", "");
+  const SeriesEntry* chosen = &entries.back();
+  if (stored.time) {
+    const auto away = [&](const SeriesEntry& entry) { return std::abs(entry.time - *stored.time); };
+    chosen = &*std::min_element(entries.begin(), entries.end(),
+                                [&](const SeriesEntry& a, const SeriesEntry& b) { return away(a) < away(b); });
+    if (away(*chosen) > rounding * std::max(*stored.time, entries.back().time)) {
+      refuse(stored, index.string(),
+             fmt::format("has no frame at {:g} s; the nearest is at {:.10g} s", *stored.time, chosen->time),
+             "Name one of its times in heat.initial.time");
+    }
+  }
+  return index.parent_path() / chosen->file;
+}
+
+std::filesystem::path file_of(const StoredField& stored) {
+  if (std::filesystem::is_directory(stored.from)) return frame_of(stored, stored.from / "heat.pvd");
+  if (stored.from.extension() == ".pvd") return frame_of(stored, stored.from);
+  if (stored.time) refuse(stored, stored.from.string(), "is a single frame", "Leave heat.initial.time out");
+  return stored.from;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> open(const StoredField& stored) {
+  try {
+    return open_vtu(file_of(stored));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    refuse(stored, stored.from.string(), error.what(), "Name the output directory of a run with heat, a .pvd or a .vtu");
+  }
+}
+
+template <int dim>
+Eigen::Vector3d in_space(const Point<dim>& point) {
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  result.head<dim>() = point;
+  return result;
+}
+
+// Values of one grid, looked up node by node.
+class Lookup {
+ public:
+  Lookup(vtkUnstructuredGrid& grid, vtkDataArray& values, double reach) : grid_(grid), values_(values), reach_(reach) {
+    locator_->SetDataSet(&grid);
+    locator_->BuildLocator();
+  }
+
+  struct Found {
+    double value = 0;
+    double distance = 0;  // outside the grid [m]; infinite if it is beyond the reach
+  };
+
+  Found at(const Eigen::Vector3d& point, double slack) {
+    std::vector<double> weights(static_cast<std::size_t>(std::max(grid_.GetMaxCellSize(), 1)));
+    std::array<double, 3> parametric{};
+    Eigen::Vector3d nearest = point;
+    int part = 0;
+    vtkIdType id = locator_->FindCell(nearest.data(), slack * slack, cell_, parametric.data(), weights.data());
+    Found found;
+    if (id < 0) {
+      double squared = 0;
+      const double radius = std::max(reach_, slack);
+      if (locator_->FindClosestPointWithinRadius(const_cast<double*>(point.data()), radius, nearest.data(), cell_, id, part,
+                                                 squared) == 0) {
+        found.distance = std::numeric_limits<double>::infinity();
+        return found;
+      }
+      found.distance = std::sqrt(squared);
+      std::array<double, 3> closest{};
+      grid_.GetCell(id, cell_);
+      cell_->EvaluatePosition(nearest.data(), closest.data(), part, parametric.data(), squared, weights.data());
+    }
+    for (int i = 0; i < cell_->GetNumberOfPoints(); ++i) {
+      found.value += weights[static_cast<std::size_t>(i)] * values_.GetTuple1(cell_->GetPointId(i));
+    }
+    return found;
+  }
+
+ private:
+  vtkUnstructuredGrid& grid_;
+  vtkDataArray& values_;
+  double reach_;
+  vtkNew<vtkStaticCellLocator> locator_;
+  vtkNew<vtkGenericCell> cell_;
+};
+
+template <int dim>
+double extent_of(const mesh::BlockMesh<dim>& mesh) {
+  Aabb<dim> box;
+  for (const Point<dim>& node : mesh.nodes) box.extend(node);
+  return mesh.nodes.empty() ? 0 : box.diagonal().norm();
+}
+
+template <int dim>
+bool same_nodes(vtkUnstructuredGrid& grid, const mesh::BlockMesh<dim>& mesh, double slack) {
+  if (static_cast<std::size_t>(grid.GetNumberOfPoints()) != mesh.nodes.size()) return false;
+  return std::all_of(mesh.nodes.ids().begin(), mesh.nodes.ids().end(), [&](NodeId node) {
+    Eigen::Vector3d point;
+    grid.GetPoint(static_cast<vtkIdType>(node.index()), point.data());
+    return (point - in_space<dim>(mesh.nodes[node])).norm() <= slack;
+  });
+}
+
+template <int dim>
+void interpolate(const StoredField& stored, Lookup& lookup, const mesh::BlockMesh<dim>& mesh, NodalField& field) {
+  const double slack = rounding * extent_of(mesh);
+  std::size_t outside = 0;
+  NodeId first;
+  for (const mesh::Block& block : mesh.blocks) {
+    Aabb<dim> box;
+    for (const NodeId node : block.nodes) box.extend(mesh.nodes[node]);
+    for (const NodeId node : block.nodes) {
+      const Point<dim> drawn = mesh.nodes[node] + inwards * (box.center() - mesh.nodes[node]);
+      const Lookup::Found found = lookup.at(in_space<dim>(drawn), slack);
+      field.values[static_cast<Eigen::Index>(node.index())] = found.value;
+      if (found.distance > slack) ++field.moved;
+      if (!std::isfinite(found.distance) && outside++ == 0) first = node;
+    }
+  }
+  if (outside == 0) return;
+  const Eigen::Vector3d point = in_space<dim>(mesh.nodes[first]);
+  refuse(stored, stored.from.string(),
+         fmt::format("{} nodes lie outside its mesh and a reach of {:g} m, the first at ({:g}, {:g}, {:g}) m", outside,
+                     stored.reach, point.x(), point.y(), point.z()),
+         "Raise heat.initial.reach if that is meant");
+}
+
+}  // namespace
+
+template <int dim>
+NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& mesh) {
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = open(stored);
+  vtkDataArray* values = grid->GetPointData()->GetArray("temperature");
+  if (values == nullptr || values->GetNumberOfComponents() != 1) {
+    refuse(stored, stored.from.string(), "must have a point array temperature, in K", "Name a frame of a run with heat");
+  }
+  const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
+  NodalField field;
+  field.values = Eigen::VectorXd::Zero(size);
+  field.same_mesh = same_nodes(*grid, mesh, rounding * extent_of(mesh));
+  if (field.same_mesh) {
+    for (Eigen::Index i = 0; i < size; ++i) field.values[i] = values->GetTuple1(i);
+  } else {
+    Lookup lookup(*grid, *values, stored.reach);
+    interpolate(stored, lookup, mesh, field);
+  }
+  if (!field.values.allFinite() || field.values.minCoeff() < 0) {
+    refuse(stored, stored.from.string(), "has temperatures that are no number or below 0 K", "");
+  }
+  return field;
+}
+
+template NodalField read_stored<2>(const StoredField&, const mesh::BlockMesh<2>&);
+template NodalField read_stored<3>(const StoredField&, const mesh::BlockMesh<3>&);
+
+}  // namespace scree::output

@@ -1,0 +1,120 @@
+#include "engine/output/stored_field.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "engine/output/series.h"
+
+namespace scree::output {
+
+namespace {
+
+using testing::HasSubstr;
+
+// Two unit squares beside each other, each of 2 n^2 triangles; their common side belongs to both.
+mesh::BlockMesh<2> two_squares(int n) {
+  mesh::BlockMesh<2> mesh;
+  for (int block = 0; block < 2; ++block) {
+    const BodyId body = mesh.bodies.push_back({block == 0 ? "left" : "right", MaterialId{0}, false, {}});
+    const std::size_t first = mesh.nodes.size();
+    const std::size_t first_element = mesh.elements.size();
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) mesh.nodes.push_back(Point<2>(block + double(i) / n, double(j) / n));
+    }
+    const auto node = [&](int i, int j) { return NodeId{first + static_cast<std::size_t>(j * (n + 1) + i)}; };
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        mesh.elements.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+        mesh.elements.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+      }
+    }
+    mesh.blocks.push_back({body, {first, mesh.nodes.size()}, {first_element, mesh.elements.size()}});
+  }
+  return mesh;
+}
+
+// Linear in each square, with a jump of 100 K between them.
+double exact(const mesh::BlockMesh<2>& mesh, NodeId node, double time) {
+  const Point<2>& at = mesh.nodes[node];
+  return 300 + 10 * at.x() - 7 * at.y() + (node.index() < mesh.blocks[BlockId{0}].nodes.size() ? 0 : 100) + time;
+}
+
+std::filesystem::path folder() {
+  return std::filesystem::temp_directory_path() / fmt::format("scree_stored_field_{}", getpid());
+}
+
+// A series of two times, 0 and 60 s.
+void store(const mesh::BlockMesh<2>& mesh) {
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  Series series(folder(), "heat");
+  for (const double time : {0.0, 60.0}) {
+    std::vector<double> values;
+    for (const NodeId node : mesh.nodes.ids()) values.push_back(exact(mesh, node, time));
+    series.write(make_grid(mesh), {time, {{"temperature", 1, values}}, {}});
+  }
+}
+
+double largest_error(const NodalField& field, const mesh::BlockMesh<2>& mesh, double time) {
+  double error = 0;
+  for (const NodeId node : mesh.nodes.ids()) {
+    error = std::max(error, std::abs(field.values[static_cast<Eigen::Index>(node.index())] - exact(mesh, node, time)));
+  }
+  return error;
+}
+
+std::string wrong_with(const StoredField& stored, const mesh::BlockMesh<2>& mesh) {
+  try {
+    read_stored(stored, mesh);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(StoredField, OnTheSameMeshEveryNodeHasItsValueAgain) {
+  const auto mesh = two_squares(3);
+  store(mesh);
+  const NodalField last = read_stored({folder(), {}}, mesh);
+  EXPECT_TRUE(last.same_mesh);
+  EXPECT_EQ(largest_error(last, mesh, 60), 0);
+  EXPECT_EQ(largest_error(read_stored({folder(), 0.0}, mesh), mesh, 0), 0);
+  EXPECT_EQ(largest_error(read_stored({folder() / "heat.pvd", 60.0}, mesh), mesh, 60), 0);
+  EXPECT_EQ(largest_error(read_stored({folder() / "heat" / "heat_000000.vtu", {}}, mesh), mesh, 0), 0);
+}
+
+TEST(StoredField, OnAnotherMeshALinearFieldIsKeptOnBothSidesOfAJump) {
+  store(two_squares(3));
+  const auto mesh = two_squares(4);
+  const NodalField field = read_stored({folder(), {}}, mesh);
+  EXPECT_FALSE(field.same_mesh);
+  EXPECT_EQ(field.moved, 0u);
+  EXPECT_LT(largest_error(field, mesh, 60), 1e-4);
+}
+
+TEST(StoredField, ANodeOutsideNeedsAReach) {
+  store(two_squares(3));
+  auto mesh = two_squares(4);
+  for (Point<2>& node : mesh.nodes) node.y() *= 1.01;
+  EXPECT_THAT(wrong_with({folder(), {}}, mesh), HasSubstr("10 nodes lie outside its mesh and a reach of 0 m"));
+  const NodalField field = read_stored({folder(), {}, 0.011}, mesh);
+  EXPECT_EQ(field.moved, 10u);
+  EXPECT_LT(largest_error(field, mesh, 60), 0.0701) << "the nearest point is 0.01 m away, at 7 K/m";
+}
+
+TEST(StoredField, WhatCannotBeReadIsSaidWithItsPlace) {
+  const auto mesh = two_squares(2);
+  store(mesh);
+  StoredField stored{folder(), 30.0};
+  stored.where = {"s.yaml", 4, 5};
+  EXPECT_THAT(wrong_with(stored, mesh), HasSubstr("s.yaml:4:5: heat.initial.from is "));
+  EXPECT_THAT(wrong_with(stored, mesh), HasSubstr("has no frame at 30 s; the nearest is at "));
+  EXPECT_THAT(wrong_with({folder() / "nothing", {}}, mesh), HasSubstr("Name the output directory"));
+  EXPECT_THAT(wrong_with({folder() / "heat" / "heat_000000.vtu", 0.0}, mesh), HasSubstr("is a single frame"));
+}
+
+}  // namespace
+
+}  // namespace scree::output
