@@ -35,6 +35,7 @@ inline constexpr Quantity specific_heat{"specific heat", "J/kg/K"};
 inline constexpr Quantity heat_flux{"heat flux", "W/m2"};
 inline constexpr Quantity heat_transfer{"heat transfer", "W/m2/K"};
 inline constexpr Quantity heat_flow{"heat flow", "W"};
+inline constexpr Quantity heat_transfer{"heat transfer coefficient", "W/m2/K"};
 inline constexpr Quantity power_density{"power per volume", "W/m3"};
 inline constexpr Quantity temperature{"temperature", "K", Quantity::Kind::temperature};
 inline constexpr Quantity temperature_difference{"temperature difference", "K", Quantity::Kind::temperature_difference};

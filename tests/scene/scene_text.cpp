@@ -202,6 +202,9 @@ std::string values_of(const Scene& scene) {
   if (scene.packing) text += "\npacking " + scene.packing->string();
   if (scene.contact) text += fmt::format("\ncontact {} {}", scene.contact->indentation, scene.contact->tolerance);
   if (scene.heat) text += fmt::format("\nheat {}", text_of(*scene.heat));
+  if (const auto& start = scene.initial_field) {
+    text += fmt::format("\nstart {} {} {}", start->from.string(), text_of(start->time), start->reach);
+  }
   if (const auto& box = scene.effective_window) {
     text += fmt::format("\neffective {} {}", text_of(Eigen::Vector3d(box->min())), text_of(Eigen::Vector3d(box->max())));
   }

@@ -22,7 +22,8 @@ struct HeatedPile {
   contact::ContactSet<dim> contacts;
   thermal::JointConduction<dim> joints;
   std::vector<output::Probe<dim>> probes;
-  std::string key;  // of the heat stage
+  std::optional<Eigen::VectorXd> start;  // temperatures of an earlier run, if the scene starts from them [K]
+  std::string key;                       // of the heat stage
 };
 
 template <int dim>

@@ -7,11 +7,25 @@
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
+#include "engine/output/stored_field.h"
+#include "thermal/steady_state.h"
 #include "tools/run/keys.h"
 
 namespace scree::run {
 
 namespace {
+
+// The temperatures of an earlier run, if the scene starts from them.
+template <int dim>
+std::optional<Eigen::VectorXd> earlier_temperatures(RunContext& context, const mesh::BlockMesh<dim>& mesh) {
+  if (!context.scene.initial_field) return std::nullopt;
+  const output::NodalField field = output::read_stored(*context.scene.initial_field, mesh);
+  context.progress.note(field.same_mesh ? std::string("heat: starts from the temperatures of an earlier run, node by node")
+                                        : fmt::format("heat: starts from temperatures interpolated in the mesh of an earlier "
+                                                      "run; {} nodes lay outside",
+                                                      field.moved));
+  return field.values;
+}
 
 template <int dim>
 contact::ContactSet<dim> find_joints(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
@@ -27,7 +41,8 @@ HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& pack
   HeatedPile<dim> pile;
   pile.mesh = packing::placed_mesh(packing);
   pile.probes = output::locate_probes(pile.mesh, scene.probes);
-  pile.key = heat_key(scene, packing);
+  pile.start = earlier_temperatures(context, pile.mesh);
+  pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
   pile.contacts = context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()),
                                 [&] { return find_joints(scene, pile.mesh); });
   pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, scene.heat->joint);
@@ -58,6 +73,30 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
   }
 }
 
+template <int dim>
+void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
+  const Scene& scene = context.scene;
+  auto state = interrupted_state(context, outcome.pile.key);
+  const auto from = state ? std::optional<double>(state->time) : std::nullopt;
+  if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
+  HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
+  thermal::HeatRun run = state ? thermal::HeatRun(outcome.model, scene.heat->time, std::move(*state))
+                               : thermal::HeatRun(outcome.model, scene.heat->time);
+  if (!from) recorder.record(run.state());
+  march(context, run, recorder);
+  outcome.state = run.state();
+  outcome.solver = run.solver();
+}
+
+// One frame, at t = 0.
+template <int dim>
+void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
+  HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, std::nullopt);
+  outcome.state = thermal::steady_state(outcome.model);
+  outcome.solver = "steady state";
+  recorder.record(outcome.state);
+}
+
 }  // namespace
 
 template <int dim>
@@ -66,7 +105,9 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
   HeatOutcome<dim> outcome;
   outcome.pile = find_pile(context, packing);
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()), [&] {
-    return thermal::make_heat_model(outcome.pile.mesh, scene.materials, outcome.pile.contacts, *scene.heat);
+    thermal::HeatOptions options = *scene.heat;
+    options.initial_field = outcome.pile.start;
+    return thermal::make_heat_model(outcome.pile.mesh, scene.materials, outcome.pile.contacts, options);
   });
   if (scene.effective_window) {
     const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
@@ -76,16 +117,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
     });
   }
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
-    auto state = interrupted_state(context, outcome.pile.key);
-    const auto from = state ? std::optional<double>(state->time) : std::nullopt;
-    if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
-    HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
-    thermal::HeatRun run = state ? thermal::HeatRun(outcome.model, scene.heat->time, std::move(*state))
-                                 : thermal::HeatRun(outcome.model, scene.heat->time);
-    if (!from) recorder.record(run.state());
-    march(context, run, recorder);
-    outcome.state = run.state();
-    outcome.solver = run.solver();
+    scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;
   });
   return outcome;

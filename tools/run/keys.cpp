@@ -1,5 +1,8 @@
 #include "tools/run/keys.h"
 
+#include <fstream>
+#include <iterator>
+
 #include <yaml-cpp/yaml.h>
 
 #include "engine/base/hash.h"
@@ -46,6 +49,14 @@ void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
   }
 }
 
+// The content of the tables the scene names; reading it made sure that they are there.
+void add_tables(Hasher& hash, const Scene& scene) {
+  for (const std::filesystem::path& table : scene.tables) {
+    std::ifstream stream(table, std::ios::binary);
+    hash.add(std::string(std::istreambuf_iterator<char>(stream), {}));
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -62,7 +73,7 @@ std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
 }
 
 template <int dim>
-std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing) {
+std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing, const Eigen::VectorXd* start) {
   Hasher hash;
   hash.add("heat").add(version());
   add_mesh(hash, packing.mesh);
@@ -71,6 +82,8 @@ std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing) {
     hash.add_bytes(pose.rotation.coeffs().data(), sizeof(double) * 4);
   }
   for (const char* section : {"materials", "contact", "heat", "output"}) add_section(hash, scene, section);
+  add_tables(hash, scene);
+  if (start != nullptr) hash.add_bytes(start->data(), sizeof(double) * static_cast<std::size_t>(start->size()));
   return hash.hex();
 }
 
@@ -80,7 +93,7 @@ std::string scene_hash(const Scene& scene) {
 
 template std::string packing_key<2>(const Scene&, const mesh::BlockMesh<2>&);
 template std::string packing_key<3>(const Scene&, const mesh::BlockMesh<3>&);
-template std::string heat_key<2>(const Scene&, const packing::Packing<2>&);
-template std::string heat_key<3>(const Scene&, const packing::Packing<3>&);
+template std::string heat_key<2>(const Scene&, const packing::Packing<2>&, const Eigen::VectorXd*);
+template std::string heat_key<3>(const Scene&, const packing::Packing<3>&, const Eigen::VectorXd*);
 
 }  // namespace scree::run

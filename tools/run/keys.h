@@ -12,9 +12,10 @@ namespace scree::run {
 template <int dim>
 std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh);
 
-// The packing, the thermal properties of the materials, and the scene's `contact`, `heat` and `output` sections.
+// The packing, the scene's `materials`, `contact`, `heat` and `output` sections, the content of its tables, and the
+// temperatures it starts from if they are an earlier run's.
 template <int dim>
-std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing);
+std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing, const Eigen::VectorXd* start);
 
 // Of the effective scene, for the summary.
 std::string scene_hash(const Scene& scene);

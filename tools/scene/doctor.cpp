@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/scene/heat_models.h"
 #include "tools/scene/suspicions.h"
 
 namespace scree {
@@ -24,39 +25,6 @@ Model motion(const Scene& scene) {
       fmt::format("the scene has a settle section: {} of {} bodies are free and fall by ({:g}, {:g}, {:g}) m/s2 for at most "
                   "{:g} s",
                   free_bodies(scene), scene.bodies.size(), g.x(), g.y(), g.z(), scene.settle->options.limit)};
-}
-
-// The law of the joints, and how many pairs have another.
-std::string words_of(const thermal::JointOptions& joint) {
-  std::string text = "joints are " + thermal::name_of(joint.law);
-  if (const auto* beta = std::get_if<thermal::StiffnessFactor>(&joint.law)) {
-    text = fmt::format("joints of stiffness factor {:g}", beta->factor);
-  } else if (const auto* h = std::get_if<thermal::JointConductance>(&joint.law)) {
-    text = fmt::format("joints of {:g} W/m2/K", h->conductance);
-  }
-  return joint.rules.empty() ? text : text + fmt::format(", and contact.joints has {}", joint.rules.size());
-}
-
-std::vector<Model> heat_models(const Scene& scene) {
-  const std::string absent = "the scene has no heat section";
-  if (!scene.heat) return {{"conduction in blocks", false, absent}, {"heat through contacts", false, absent}};
-  const thermal::HeatOptions& heat = *scene.heat;
-  const bool euler = heat.time.integrator == thermal::Integrator::explicit_euler;
-  std::vector<Model> models{
-      {"conduction in blocks", true,
-       fmt::format("the scene has a heat section: {:g} s in {} steps", heat.time.until, euler ? "explicit" : "implicit")},
-      {"heat through contacts", true, fmt::format("heat passes between blocks that touch: {}", words_of(heat.joint))}};
-  const std::size_t boundaries = heat.boundaries.size();
-  models.push_back({"boundaries", boundaries > 0,
-                    boundaries > 0 ? fmt::format("heat.boundaries has {}", boundaries) : "all surfaces are insulated"});
-  if (scene.effective_window) {
-    models.push_back(
-        {"effective conductivity", true, "the scene has heat.effective_conductivity: steady states of its box of space"});
-  }
-  const std::size_t sources = heat.sources.size();
-  models.push_back(
-      {"sources", sources > 0, sources > 0 ? fmt::format("heat.sources has {}", sources) : "heat.sources is empty"});
-  return models;
 }
 
 void append(Sentences& sentences, const Sentences& more) {

@@ -4,26 +4,22 @@
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
-#include "engine/base/key_row.h"
 #include "engine/base/material.h"
 #include "engine/mesh/body_spec.h"
 #include "engine/output/probes.h"
 #include "engine/rigid/settle.h"
 #include "thermal/heat_options.h"
+#include "tools/scene/heat_keys.h"
+#include "tools/scene/key_lists.h"
 
 namespace scree {
 
 namespace {
 
 using enum KeyType;
-using Keys = std::vector<Key>;
 namespace q = quantity;
 
 constexpr auto vector = Count::per_dimension;
-
-std::string with_unit(double value, std::string_view unit) {
-  return fmt::format("{} {}", value, unit);
-}
 
 // A default vector. Scenes in 2-D leave z away, and no key with such a default is for them.
 std::string as_list(const Eigen::Vector3d& value) {
@@ -35,29 +31,17 @@ const std::vector<Condition> one_copy{{.key = "bodies.*.lattice", .absent = true
                                       {.key = "bodies.*.random", .absent = true},
                                       {.key = "bodies.*.at", .absent = true}};
 
-void append(Keys& keys, Keys more) {
-  for (Key& key : more) keys.push_back(std::move(key));
-}
-
 // A rotation below `parent`.
-Keys rotation(const std::string& parent, const std::vector<Condition>& only = {}) {
+Keys rotation(const std::string& parent, const std::vector<Condition>& only = {},
+              const std::string& what = "Turns the shape about its own origin") {
   const std::string path = parent + ".rotation";
   return {
-      row(path, quantity, "Turns the shape about its own origin: {axis, angle}, or a quaternion [w, x, y, z].", q::number)
+      row(path, quantity, what + ": {axis, angle}, or a quaternion [w, x, y, z].", q::number)
           .count(Count::four)
           .otherwise("not turned")
           .only(only),
       row(path + ".axis", quantity, "Axis of the rotation; in 2-D it is z.", q::number).count(vector).required().only({in_3d}),
       row(path + ".angle", quantity, "Angle of the rotation, right-handed about the axis.", q::angle).required(),
-  };
-}
-
-// Where a region below `parent` ends.
-Keys within(const std::string& parent) {
-  return {
-      row(parent + ".within", section, "An axis-aligned box of space that holds the part meant.").otherwise("the whole body"),
-      row(parent + ".within.low", quantity, "Its corner with the least coordinates.", q::length).count(vector).required(),
-      row(parent + ".within.high", quantity, "Its corner with the largest coordinates.", q::length).count(vector).required(),
   };
 }
 
@@ -71,20 +55,37 @@ Keys root_keys() {
 
 Keys material_keys() {
   const Material by_default;
-  return {
+  Keys keys{
       row("materials", names, "What bodies are made of.").range(at_least_one).required(),
       row("materials.*", section, "One material."),
       row("materials.*.density", quantity, "Mass per volume.", q::density, positive).otherwise("needed to settle and for heat"),
-      row("materials.*.conductivity", quantity, "Thermal conductivity.", q::conductivity, positive)
+      row("materials.*.conductivity", quantity, "Thermal conductivity: one number, one for each axis, or a map.",
+          q::conductivity, positive)
+          .count(Count::one_or_per_dimension)
+          .depends(Depends::on_temperature)
           .otherwise("needed for heat"),
-      row("materials.*.specific_heat", quantity, "Heat capacity per mass.", q::specific_heat, positive)
-          .otherwise("needed for heat"),
-      row("materials.*.friction", quantity, "Coulomb coefficient between two bodies of this material.", q::number, not_negative)
-          .fallback(fmt::format("{}", by_default.friction)),
-      row("materials.*.restitution", quantity, "Rebound speed over impact speed between two bodies of this material.",
-          q::number, Range{.low = 0, .high = 1})
-          .fallback(fmt::format("{}", by_default.restitution)),
+      row("materials.*.conductivity.value", quantity, "Along the first principal axis.", q::conductivity, positive)
+          .required()
+          .choice("form"),
+      row("materials.*.conductivity.ratio", quantity, "Conductivity along each principal axis over the value.", q::number,
+          positive)
+          .count(vector)
+          .otherwise("the same along all"),
   };
+  append(keys, rotation("materials.*.conductivity", {}, "Turns the principal axes out of the body's"));
+  append(keys,
+         {
+             row("materials.*.specific_heat", quantity, "Heat capacity per mass.", q::specific_heat, positive)
+                 .depends(Depends::on_temperature)
+                 .otherwise("needed for heat"),
+             row("materials.*.friction", quantity, "Coulomb coefficient between two bodies of this material.", q::number,
+                 not_negative)
+                 .fallback(fmt::format("{}", by_default.friction)),
+             row("materials.*.restitution", quantity, "Rebound speed over impact speed between two bodies of this material.",
+                 q::number, Range{.low = 0, .high = 1})
+                 .fallback(fmt::format("{}", by_default.restitution)),
+         });
+  return keys;
 }
 
 Keys shape_keys() {
@@ -272,77 +273,12 @@ Keys contact_keys() {
   };
 }
 
-Keys boundary_keys() {
-  Keys keys{
-      row("heat.boundaries", KeyType::list, "What happens at the surface of bodies; elsewhere it is insulated.").fallback("[]"),
-      row("heat.boundaries[]", section, "One boundary."),
-      row("heat.boundaries[].body", name, "The body it is on.").required(),
-      row("heat.boundaries[].surface", name,
-          "Only on this surface: x_low to z_high, side, bottom, top, surface of a sphere, a physical group of an .msh.")
-          .otherwise("the whole body"),
-      row("heat.boundaries[].temperature", quantity, "Held at every node of the part, inner ones too.", q::temperature,
-          not_negative)
-          .required()
-          .choice("condition"),
-      row("heat.boundaries[].flux", quantity, "Into the body, through every face in the part.", q::heat_flux)
-          .required()
-          .choice("condition"),
-      row("heat.boundaries[].flow", quantity, "Into the body in all, spread over the faces in the part.", q::heat_flow)
-          .required()
-          .choice("condition"),
-      row("heat.boundaries[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
-  };
-  append(keys, within("heat.boundaries[]"));
-  append(keys, {
-                   row("heat.sources", KeyType::list, "Heat set free inside bodies.").fallback("[]"),
-                   row("heat.sources[]", section, "One source."),
-                   row("heat.sources[].body", name, "The body it is in.").required(),
-                   row("heat.sources[].power", quantity, "Per volume.", q::power_density).required(),
-                   row("heat.sources[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
-               });
-  append(keys, within("heat.sources[]"));
-  return keys;
-}
-
-Keys heat_keys() {
-  const thermal::TimeOptions by_default;
-  Keys keys{
-      row("heat", section, "Heat is conducted in the blocks and between them, once they lie."),
-      row("heat.initial", quantity, "Temperature at the start, of all bodies or of each by its name.", q::temperature,
-          not_negative)
-          .required(),
-      row("heat.initial.*", quantity, "Of this body.", q::temperature, not_negative),
-  };
-  append(keys, boundary_keys());
-  append(keys, {
-                   row("heat.effective_conductivity", section,
-                       "Find the effective conductivity tensor of a box of space and its bounds, before anything is heated.")
-                       .otherwise("not asked for"),
-                   row("heat.effective_conductivity.low", quantity, "Corner of the box with the least coordinates.", q::length)
-                       .count(vector)
-                       .required(),
-                   row("heat.effective_conductivity.high", quantity, "Its corner with the largest coordinates.", q::length)
-                       .count(vector)
-                       .required(),
-               });
-  append(keys, {
-                   row("heat.until", quantity, "End of the simulated time.", q::time, positive).required(),
-                   row("heat.tolerance", quantity, "Largest accepted error of a temperature from the steps in time.",
-                       q::temperature_difference, positive)
-                       .fallback(with_unit(by_default.tolerance, "K")),
-                   row("heat.integrator", word, "Steps in time.").words({"implicit", "explicit_euler"}).fallback("implicit"),
-                   row("heat.step", quantity, "Time step.", q::time, positive)
-                       .otherwise("largest stable one")
-                       .only({Condition{"heat.integrator", "explicit_euler"}}),
-               });
-  return keys;
-}
-
 Keys output_keys() {
   return {
       row("output", section, "What a run writes of the temperatures.").required().only({Condition{"heat"}}),
       row("output.every", quantity, "Time between the frames of heat.pvd and rows of probes.csv.", q::time, positive)
-          .required(),
+          .required()
+          .only({Condition{.key = "heat.steady", .word = "true", .absent = true}}),
       row("output.probes", names, "Points whose temperature is followed.").fallback("{}"),
       row("output.probes.*", quantity, "One point, as a list or with its reach.", q::length).count(vector),
       row("output.probes.*.point", quantity, "Where it is.", q::length).count(vector).required(),

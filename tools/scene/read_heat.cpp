@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <tuple>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,19 +44,44 @@ thermal::Region read_region(const Checked& part, const Names& names, int dimensi
   return region;
 }
 
+using BoundaryCondition = decltype(thermal::Boundary::condition);
+
+// A total has one value for all its faces.
+Function read_flow(const Checked& flow, Problems& problems) {
+  Function function = read_function(flow, problems);
+  if (function.varies_in_place()) {
+    problems.push_back(
+        flow.problem("a function of place", "must depend on time only", "Use flux for one that varies in place"));
+  }
+  return function;
+}
+
+// The one condition of a boundary, and what it is called.
+BoundaryCondition read_condition(const Checked& part, std::string& kind, Problems& problems) {
+  const auto function = [&](const Checked& of, const char* key) { return read_function(of.at(key), problems); };
+  for (const char* name : {"temperature", "flux", "flow", "convection", "radiation"}) {
+    if (part.find(name) == nullptr) continue;
+    kind = name;
+    break;
+  }
+  if (kind == "flux") return thermal::HeatFlux{function(part, "flux")};
+  if (kind == "flow") return thermal::HeatFlow{read_flow(part.at("flow"), problems)};
+  if (kind == "convection") {
+    const Checked& convection = part.at("convection");
+    return thermal::Convection{function(convection, "coefficient"), function(convection, "surroundings")};
+  }
+  if (kind == "radiation") {
+    const Checked& radiation = part.at("radiation");
+    return thermal::Radiation{function(radiation, "emissivity"), function(radiation, "surroundings")};
+  }
+  return thermal::FixedTemperature{function(part, "temperature")};
+}
+
 thermal::Boundary read_boundary(const Checked& part, Names& names, int dimension, Problems& problems) {
   thermal::Boundary boundary;
   boundary.region = read_region(part, names, dimension, problems);
-  std::string kind = "temperature";
-  if (const Checked* flux = part.find("flux")) {
-    kind = "flux";
-    boundary.condition = thermal::HeatFlux{flux->number()};
-  } else if (const Checked* flow = part.find("flow")) {
-    kind = "flow";
-    boundary.condition = thermal::HeatFlow{flow->number()};
-  } else {
-    boundary.condition = thermal::FixedTemperature{part.at("temperature").number()};
-  }
+  std::string kind;
+  boundary.condition = read_condition(part, kind, problems);
   boundary.name = ledger_name(part, kind, names, problems);
   boundary.where = part.where;
   return boundary;
@@ -63,16 +90,24 @@ thermal::Boundary read_boundary(const Checked& part, Names& names, int dimension
 thermal::Source read_source(const Checked& part, Names& names, int dimension, Problems& problems) {
   thermal::Source source;
   source.region = read_region(part, names, dimension, problems);
-  source.power = part.at("power").number();
+  source.power = read_function(part.at("power"), problems);
   source.name = ledger_name(part, "source", names, problems);
   source.where = part.where;
   return source;
 }
 
-// One temperature for all bodies, or one for each.
-Table<BodyId, Function> read_initial(const Checked& initial, const Names& names, Problems& problems) {
-  Table<BodyId, Function> result(names.bodies.size(), initial.number());
-  if (!initial.is_map) return result;
+// A temperature at t = 0.
+Function read_start(const Checked& value, Problems& problems) {
+  Function function = read_function(value, problems);
+  if (function.varies_in_time()) {
+    problems.push_back(value.problem("a function of time", "must depend on place only", "The start is at t = 0"));
+  }
+  return function;
+}
+
+Table<BodyId, Function> read_bodies_initial(const Checked& initial, const Names& names, Problems& problems) {
+  Table<BodyId, Function> result(names.bodies.size());
+  std::vector<std::string> missing = names.bodies;
   for (const CheckedEntry& entry : initial.entries) {
     const auto place = std::find(names.bodies.begin(), names.bodies.end(), entry.name);
     if (place == names.bodies.end()) {
@@ -80,11 +115,9 @@ Table<BodyId, Function> read_initial(const Checked& initial, const Names& names,
           {entry.where, entry.value.path, "unknown", "must be a body of this scene", suggest(entry.name, names.bodies)});
       continue;
     }
-    result[BodyId{static_cast<std::size_t>(place - names.bodies.begin())}] = entry.value.number();
-  }
-  std::vector<std::string> missing;
-  for (const std::string& body : names.bodies) {
-    if (initial.find(body) == nullptr) missing.push_back(body);
+    const BodyId body{static_cast<std::size_t>(place - names.bodies.begin())};
+    result[body] = read_start(entry.value, problems);
+    std::erase(missing, entry.name);
   }
   if (!missing.empty()) {
     problems.push_back(
@@ -93,8 +126,50 @@ Table<BodyId, Function> read_initial(const Checked& initial, const Names& names,
   return result;
 }
 
+// One temperature for all bodies, or one for each; from an earlier run the stage reads them later.
+Table<BodyId, Function> read_initial(const Checked& initial, const Names& names, Problems& problems) {
+  const bool by_body =
+      initial.is_map && (initial.entries.empty() || initial.entries.front().value.key->path == "heat.initial.*");
+  if (by_body) return read_bodies_initial(initial, names, problems);
+  return Table<BodyId, Function>(names.bodies.size(), read_start(initial, problems));
+}
+
+auto functions_of(const thermal::FixedTemperature& c) {
+  return std::tie(c.temperature);
+}
+auto functions_of(const thermal::HeatFlux& c) {
+  return std::tie(c.flux);
+}
+auto functions_of(const thermal::HeatFlow& c) {
+  return std::tie(c.flow);
+}
+auto functions_of(const thermal::Convection& c) {
+  return std::tie(c.coefficient, c.surroundings);
+}
+auto functions_of(const thermal::Radiation& c) {
+  return std::tie(c.emissivity, c.surroundings);
+}
+
+// A table over time has to last as long as the run.
+void check_times(const thermal::HeatOptions& options, Problems& problems) {
+  const auto check = [&](const Function& function) {
+    try {
+      function.check_time(0, options.time.steady ? 0 : options.time.until);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  };
+  const auto check_all = [&](const auto&... functions) { (check(functions), ...); };
+  for (const thermal::Boundary& boundary : options.boundaries) {
+    std::visit([&](const auto& condition) { std::apply(check_all, functions_of(condition)); }, boundary.condition);
+  }
+  for (const thermal::Source& source : options.sources) check(source.power);
+}
+
 thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
   thermal::TimeOptions time;
+  time.steady = heat.at("steady").flag();
+  if (time.steady) return time;
   time.until = heat.at("until").number();
   time.tolerance = heat.at("tolerance").number();
   time.output_every = output.at("every").number();
@@ -105,6 +180,17 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
 }
 
 }  // namespace
+
+std::optional<output::StoredField> read_initial_field(const Checked& initial) {
+  const Checked* from = initial.find("from");
+  if (from == nullptr || from->key->path != "heat.initial.from") return std::nullopt;
+  output::StoredField field;
+  field.from = from->text;
+  if (const Checked* time = initial.find("time")) field.time = time->number();
+  field.reach = initial.at("reach").number();
+  field.where = from->where;
+  return field;
+}
 
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems) {
   const Checked* window = heat.find("effective_conductivity");
@@ -128,6 +214,7 @@ thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
   }
   options.joint = read_joint(scene, problems);
   options.time = read_time(heat, scene.at("output"));
+  check_times(options, problems);
   return options;
 }
 

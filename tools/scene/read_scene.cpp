@@ -29,9 +29,21 @@ int dimension_of(const InputValue& root) {
   return dimension != nullptr && dimension->text == "2" ? 2 : 3;
 }
 
+bool names_a_file(const Checked& checked) {
+  if (checked.key == nullptr || !checked.sound) return false;
+  return checked.key->type == KeyType::path || (checked.key->type == KeyType::table && checked.texts.empty());
+}
+
+// The tables that functions and curves come from.
+void collect_tables(const Checked& checked, std::vector<std::filesystem::path>& tables) {
+  if (names_a_file(checked) && checked.key->type == KeyType::table) tables.emplace_back(checked.text);
+  for (const CheckedEntry& entry : checked.entries) collect_tables(entry.value, tables);
+  for (const Checked& item : checked.items) collect_tables(item, tables);
+}
+
 // Paths in a file are relative to it, those of an override (which stands at no line) to the current directory.
 void make_paths_absolute(Checked& checked, const std::filesystem::path& folder) {
-  if (checked.key != nullptr && checked.key->type == KeyType::path && checked.sound) {
+  if (names_a_file(checked)) {
     const std::filesystem::path base = checked.where.line == 0 ? std::filesystem::current_path() : folder;
     checked.text = (base / checked.text).lexically_normal().string();
   }
@@ -65,7 +77,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   make_paths_absolute(checked, std::filesystem::absolute(file).parent_path());
 
   scene.title = checked.at("title").text;
-  scene.materials = read_materials(checked.at("materials"));
+  scene.materials = read_materials(checked.at("materials"), scene.dimension, problems);
   scene.bodies = read_bodies(checked, scene.dimension, problems);
   if (const Checked* settle = checked.find("settle")) scene.settle = read_settle(*settle, problems);
   if (const Checked* packing = checked.find("packing")) {
@@ -76,10 +88,12 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (const Checked* heat = checked.find("heat")) {
     scene.heat = read_heat(checked, problems);
     scene.effective_window = read_effective_window(*heat, scene.dimension, problems);
+    scene.initial_field = read_initial_field(heat->at("initial"));
   }
   scene.probes = read_probes(checked.at("output"));
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));
+  collect_tables(checked, scene.tables);
   scene.effective = to_yaml(checked);
   return scene;
 }

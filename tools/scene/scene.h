@@ -10,6 +10,7 @@
 #include "engine/base/material.h"
 #include "engine/mesh/body_spec.h"
 #include "engine/output/probes.h"
+#include "engine/output/stored_field.h"
 #include "engine/rigid/settle.h"
 #include "thermal/heat_options.h"
 
@@ -33,9 +34,11 @@ struct Scene {
   // Both or neither.
   std::optional<contact::ContactOptions> contact;
   std::optional<thermal::HeatOptions> heat;
-  std::optional<Aabb<3>> effective_window;  // of which to find the effective conductivity [m]; 2-D ignores z
+  std::optional<Aabb<3>> effective_window;           // of which to find the effective conductivity [m]; 2-D ignores z
+  std::optional<output::StoredField> initial_field;  // instead of heat->initial_temperature
   std::vector<output::ProbeSpec> probes;
-  std::string effective;  // the scene as YAML with every default filled in; reading it gives the same scene
+  std::vector<std::filesystem::path> tables;  // files that functions and curves come from
+  std::string effective;                      // the scene as YAML with every default filled in; reading it gives the same scene
 };
 
 }  // namespace scree

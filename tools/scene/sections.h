@@ -13,17 +13,22 @@ namespace scree {
 
 using Problems = std::vector<Problem>;
 
-Table<MaterialId, Material> read_materials(const Checked& materials);
+Table<MaterialId, Material> read_materials(const Checked& materials, int dimension, Problems& problems);
 std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Problems& problems);
 SettleStage read_settle(const Checked& settle, Problems& problems);
 contact::ContactOptions read_contact(const Checked& contact);
 thermal::JointOptions read_joint(const Checked& scene, Problems& problems);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems);
+std::optional<output::StoredField> read_initial_field(const Checked& initial);
 std::vector<output::ProbeSpec> read_probes(const Checked& section);
 
 // What one section needs of another: a density to settle, a conductivity for heat, a temperature for every body.
 void check_needs(const Scene& scene, const Checked& checked, Problems& problems);
+
+// A quantity of place and time, or of temperature, in any of its forms.
+Function read_function(const Checked& value, Problems& problems);
+Curve read_curve(const Checked& value, Problems& problems);
 
 // How a body is turned; not at all without a rotation.
 Eigen::Quaterniond read_rotation(const Checked* rotation, int dimension, Problems& problems);

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/base/input.h"
 #include "engine/base/units.h"
@@ -48,7 +49,8 @@ Sentences free_without_motion(const Scene& scene) {
   return sentences;
 }
 
-// The effective scene still has the temperatures as they were written.
+// The effective scene still has the temperatures as they were written. Those of formulas and tables carry a unit or none on
+// purpose.
 Sentences cold_bare_temperatures(const Scene& scene) {
   Sentences sentences;
   const InputValue root = parse_yaml(scene.effective, scene.file.string());
@@ -56,11 +58,19 @@ Sentences cold_bare_temperatures(const Scene& scene) {
   if (heat == nullptr) return sentences;
   const InputValue& initial = *heat->find("initial");
   judge_temperature(initial, "heat.initial", sentences);
-  for (const InputEntry& entry : initial.entries) judge_temperature(entry.value, "heat.initial." + entry.name, sentences);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const InputValue* temperature = scene.initial_field ? nullptr : initial.find(scene.bodies[i].name);
+    if (temperature != nullptr) judge_temperature(*temperature, "heat.initial." + scene.bodies[i].name, sentences);
+  }
   const std::vector<InputValue>& boundaries = heat->find("boundaries")->items;
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    const InputValue* temperature = boundaries[i].find("temperature");
-    if (temperature != nullptr) judge_temperature(*temperature, fmt::format("heat.boundaries[{}].temperature", i), sentences);
+    for (const std::vector<std::string>& keys :
+         {std::vector<std::string>{"temperature"}, {"convection", "surroundings"}, {"radiation", "surroundings"}}) {
+      const InputValue* value = &boundaries[i];
+      for (const std::string& key : keys) value = value == nullptr ? nullptr : value->find(key);
+      if (value != nullptr)
+        judge_temperature(*value, fmt::format("heat.boundaries[{}].{}", i, fmt::join(keys, ".")), sentences);
+    }
   }
   return sentences;
 }

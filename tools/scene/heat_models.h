@@ -1,0 +1,12 @@
+// Which parts of the physics of heat a scene asks for, and where.
+#pragma once
+
+#include <vector>
+
+#include "tools/scene/doctor.h"
+
+namespace scree {
+
+std::vector<Model> heat_models(const Scene& scene);
+
+}  // namespace scree
