@@ -33,7 +33,6 @@ inline constexpr Quantity density{"density", "kg/m3"};
 inline constexpr Quantity conductivity{"conductivity", "W/m/K"};
 inline constexpr Quantity specific_heat{"specific heat", "J/kg/K"};
 inline constexpr Quantity heat_flux{"heat flux", "W/m2"};
-inline constexpr Quantity heat_transfer{"heat transfer", "W/m2/K"};
 inline constexpr Quantity heat_flow{"heat flow", "W"};
 inline constexpr Quantity heat_transfer{"heat transfer coefficient", "W/m2/K"};
 inline constexpr Quantity power_density{"power per volume", "W/m3"};

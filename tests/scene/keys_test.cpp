@@ -215,7 +215,8 @@ Change implied_change(const Key& key, const std::map<std::string, Change>& chang
   } else {
     change.before.push_back(path + "={expression: 0.7 + 0, unit: " +
                             (quantity.quantity.unit.empty() ? "m/m" : std::string(quantity.quantity.unit)) + "}");
-    const std::string other = quantity.quantity.unit.empty() ? "%" : "k" + std::string(quantity.quantity.unit);
+    const std::string other =
+        quantity.quantity.unit.empty() ? std::string("%") : std::string("k").append(quantity.quantity.unit);
     change.after = form == "expression" ? path + ".expression=0.5" : path + ".unit=\"" + other + "\"";
   }
   return change;
