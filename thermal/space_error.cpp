@@ -66,15 +66,17 @@ SpaceError estimate_space_error(const mesh::BlockMesh<dim>& mesh, const Table<Ma
       const double volumetric_heat = *material.density * (*material.specific_heat)(mean_temperature);
       const double volume = mesh::element_volume(mesh, e);
       const double square = mean_square<dim>(gap);
-      missed += volume / k * square;
-      whole += volume / k * mean_square<dim>(smooth);
+      if (block.elements.size() > 1) {
+        missed += volume / k * square;
+        whole += volume / k * mean_square<dim>(smooth);
+      }
       const double h = mesh::element_mean_edge(mesh, e);
       const double bulge = volumetric_heat * std::abs(mean_rate) * h * h / (8 * k);
       error.of_element[e.index()] = std::max(std::sqrt(3 * square) / 4 * h / k, bulge);
       error.largest = std::max(error.largest, error.of_element[e.index()]);
     }
   }
-  error.relative = whole > 0 ? std::sqrt(missed / whole) : 0;
+  if (whole > 0) error.relative = std::sqrt(missed / whole);
   return error;
 }
 

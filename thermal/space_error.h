@@ -19,7 +19,8 @@ struct SpaceError {
   std::vector<double> of_element;  // [K]
   double largest = 0;              // of them [K]
   // |q* - q| over |q*|, both in the energy norm (weighted by 1/k) [-].
-  double relative = 0;
+  // Over the blocks of more than one element; nothing if there are none, since one element cannot be smoothed.
+  std::optional<double> relative;
 };
 
 // `rate` is dT/dt of every node [K/s].

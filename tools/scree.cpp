@@ -32,6 +32,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string prefix;
   bool quiet = false;
+  bool error_estimate = false;
   scree::RenderArguments render;
   scree::accuracy::Arguments accuracy;
 };
@@ -47,18 +48,22 @@ std::string default_directory(const std::string& scene) {
   return (std::filesystem::path("out") / std::filesystem::path(scene).stem()).string();
 }
 
+scree::run::SpaceErrors space_errors(const Arguments& arguments) {
+  return arguments.error_estimate ? scree::run::SpaceErrors::estimated : scree::run::SpaceErrors::left_out;
+}
+
 int run(const Arguments& arguments) {
   const scree::Scene scene = scree::read_scene(arguments.scene, arguments.overrides);
   scree::Progress progress(scree::progress_mode(arguments.quiet));
   const std::string directory = arguments.directory.empty() ? default_directory(arguments.scene) : arguments.directory;
-  return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress);
+  return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress, space_errors(arguments));
 }
 
 int resume(const Arguments& arguments) {
   const RunFiles files{arguments.directory};
   const scree::Scene scene = scree::read_scene(files.scene(), {});
   scree::Progress progress(scree::progress_mode(arguments.quiet));
-  return scree::run::run_scene(scene, files, scree::run::Start::resume, progress);
+  return scree::run::run_scene(scene, files, scree::run::Start::resume, progress, space_errors(arguments));
 }
 
 template <int dim>
@@ -92,7 +97,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   run->add_option("--out", arguments.directory, "where the results go (default: out/ and the scene's name)");
   CLI::App* resume = app.add_subcommand("resume", "go on with an interrupted run from its last finished time");
   resume->add_option("directory", arguments.directory, "the interrupted run's --out")->required();
-  for (CLI::App* command : {run, resume}) command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+  for (CLI::App* command : {run, resume}) {
+    command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+    command->add_flag("--error-estimate", arguments.error_estimate, "estimate the space error of every element, too");
+  }
   CLI::App* check = app.add_subcommand("check", "find everything wrong or suspicious in a scene without running it");
   add_scene(*check, arguments);
   CLI::App* keys = app.add_subcommand("keys", "print every key of a scene, its unit, default and rule");

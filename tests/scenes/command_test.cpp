@@ -88,6 +88,21 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
 }
 
+TEST(Command, EstimatesTheSpaceErrorWhenAskedTo) {
+  const auto directory = fresh_directory("space_error");
+  for (const std::string size : {"0.02", "0.01"}) {
+    ASSERT_EQ(scree("run " + scene("slab") + " --quiet --error-estimate --set bodies.bar.mesh_size=" + size + " --out " +
+                    (directory / size).string())
+                  .status,
+              0);
+  }
+  const auto largest = [&](const std::string& size) {
+    return nlohmann::json::parse(contents(directory / size / "summary.json"))["heat"]["space_error"]["largest"].get<double>();
+  };
+  EXPECT_GT(largest("0.02") / largest("0.01"), 2);
+  EXPECT_NE(contents(directory / "0.01/heat/heat_000001.vtu").find("space_error"), std::string::npos);
+}
+
 TEST(Command, DrawsARunWithoutAScreen) {
   const auto directory = fresh_directory("drawn");
   ASSERT_EQ(scree("run " + scene("bars_and_joint") + " --quiet --set heat.until=\"2 h\" --out " + directory.string()).status,

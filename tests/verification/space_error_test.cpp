@@ -36,7 +36,7 @@ TYPED_TEST(SpaceErrorOf, ALinearTemperatureIsNothing) {
   const auto linear = at_nodes<dim>(mesh, [](const Point<dim>& x) { return 300 + 10 * x[0] - 4 * x[1]; });
   const SpaceError error = estimate_space_error(mesh, test::rock_only(), linear, Eigen::VectorXd::Zero(linear.size()));
   EXPECT_LT(error.largest, 1e-9);
-  EXPECT_LT(error.relative, 1e-9);
+  EXPECT_LT(error.relative.value(), 1e-9);
 }
 
 TYPED_TEST(SpaceErrorOf, ASmoothTemperatureFallsWithTheSquareOfTheMesh) {
@@ -77,6 +77,7 @@ TYPED_TEST(SpaceErrorOf, ABlockOfOneElementIsSeenByItsHeatBalance) {
   const double rate = 0.01;  // [K/s]
   const SpaceError error =
       estimate_space_error(mesh, test::rock_only(), uniform, Eigen::VectorXd::Constant(uniform.size(), rate));
+  EXPECT_FALSE(error.relative) << "one element cannot be smoothed";
   for (const ElementId e : mesh.elements.ids()) {
     const double h = mesh::element_mean_edge(mesh, e);
     EXPECT_NEAR(error.of_element[e.index()], 2500 * 800 * rate * h * h / (8 * 4.0), 1e-9);

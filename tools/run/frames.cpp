@@ -1,5 +1,6 @@
 #include "tools/run/frames.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace scree::run {
@@ -52,6 +53,24 @@ output::Frame heat_frame(double time, const std::vector<output::Array>& identity
 }
 
 template <int dim>
+std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std::vector<double>& of_element) {
+  if (mesh.cells.empty()) return of_element;
+  std::vector<double> largest;
+  for (const mesh::Block& block : mesh.blocks) {
+    auto element = block.elements.begin();
+    for (const CellId cell : block.cells) {
+      double value = 0;
+      for (std::size_t i = 0; i < mesh::split_count(mesh.cells[cell].kind); ++i, ++element) {
+        value = std::max(value, of_element[(*element).index()]);
+      }
+      largest.push_back(value);
+    }
+    for (; element != block.elements.end(); ++element) largest.push_back(of_element[(*element).index()]);
+  }
+  return largest;
+}
+
+template <int dim>
 output::Grid contact_grid(const contact::ContactSet<dim>& contacts) {
   output::Grid grid;
   for (const auto& contact : contacts.contacts) {
@@ -79,11 +98,12 @@ output::Frame contact_frame(double time, const contact::ContactSet<dim>& contact
   return frame;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                              \
-  template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                    \
-  template output::Frame heat_frame<dim>(double, const std::vector<output::Array>&, const Eigen::VectorXd&, \
-                                         const std::vector<Point<dim>>&);                                   \
-  template output::Grid contact_grid<dim>(const contact::ContactSet<dim>&);                                 \
+#define SCREE_INSTANTIATE(dim)                                                                                 \
+  template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                       \
+  template output::Frame heat_frame<dim>(double, const std::vector<output::Array>&, const Eigen::VectorXd&,    \
+                                         const std::vector<Point<dim>>&);                                      \
+  template std::vector<double> largest_in_cells<dim>(const mesh::BlockMesh<dim>&, const std::vector<double>&); \
+  template output::Grid contact_grid<dim>(const contact::ContactSet<dim>&);                                    \
   template output::Frame contact_frame<dim>(double, const contact::ContactSet<dim>&, std::vector<double>);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -21,6 +21,10 @@ template <int dim>
 output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
                          const std::vector<Point<dim>>& flux);
 
+// The largest value among the elements of each cell that a series shows.
+template <int dim>
+std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std::vector<double>& of_element);
+
 // One vertex per contact, where it is.
 template <int dim>
 output::Grid contact_grid(const contact::ContactSet<dim>& contacts);

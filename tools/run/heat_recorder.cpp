@@ -1,5 +1,6 @@
 #include "tools/run/heat_recorder.h"
 
+#include "thermal/space_error.h"
 #include "tools/run/frames.h"
 
 namespace scree::run {
@@ -37,7 +38,13 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, state.temperature);
-  series_.write(grid_, heat_frame<dim>(state.time, identity_, state.temperature, flux));
+  output::Frame frame = heat_frame<dim>(state.time, identity_, state.temperature, flux);
+  if (model_ != nullptr) {
+    const auto rate = thermal::temperature_rate(*model_, state.temperature, state.time);
+    const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, state.temperature, rate);
+    frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
+  }
+  series_.write(grid_, frame);
   const auto form = scene_.heat->joint.form;
   auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, form);
   contact_series_.write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));

@@ -32,6 +32,9 @@ class HeatRecorder {
   // Starts the files, or goes on with those of a run that reached `resumed_from`.
   HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, std::optional<double> resumed_from);
 
+  // Adds the estimate of the space error to every frame from now on.
+  void estimate_space_error(const thermal::HeatModel& model) { model_ = &model; }
+
   // The restart file comes last: it never promises more than the other files hold.
   void record(const thermal::HeatState& state);
 
@@ -45,6 +48,7 @@ class HeatRecorder {
   output::Series series_;
   output::Series contact_series_;
   std::optional<output::ProbeTable> table_;
+  const thermal::HeatModel* model_ = nullptr;  // of the space error; none if it is not asked for
 };
 
 }  // namespace scree::run

@@ -80,6 +80,7 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
   const auto from = state ? std::optional<double>(state->time) : std::nullopt;
   if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
   HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
+  if (context.estimate_space_error) recorder.estimate_space_error(outcome.model);
   thermal::HeatRun run = state ? thermal::HeatRun(outcome.model, scene.heat->time, std::move(*state))
                                : thermal::HeatRun(outcome.model, scene.heat->time);
   if (!from) recorder.record(run.state());
@@ -92,6 +93,7 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
 template <int dim>
 void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
   HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, std::nullopt);
+  if (context.estimate_space_error) recorder.estimate_space_error(outcome.model);
   outcome.state = thermal::steady_state(outcome.model);
   outcome.solver = "steady state";
   recorder.record(outcome.state);
@@ -120,6 +122,10 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
     scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;
   });
+  if (context.estimate_space_error) {
+    const auto rate = thermal::temperature_rate(outcome.model, outcome.state.temperature, outcome.state.time);
+    outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials, outcome.state.temperature, rate);
+  }
   return outcome;
 }
 

@@ -6,6 +6,7 @@
 
 #include "thermal/effective_conductivity.h"
 #include "thermal/heat_run.h"
+#include "thermal/space_error.h"
 #include "tools/run/heat_recorder.h"
 #include "tools/run/run_context.h"
 
@@ -17,6 +18,7 @@ struct HeatOutcome {
   thermal::HeatModel model;
   thermal::HeatState state;  // at the end
   std::string solver;
+  std::optional<thermal::SpaceError> space_error;                // at the end, if the user asks for it
   std::optional<thermal::EffectiveConductivity<dim>> effective;  // if the scene asks for it
 };
 

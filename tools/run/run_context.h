@@ -18,6 +18,7 @@ struct RunContext {
   RunFiles files;
   Progress& progress;
   bool resume = false;
+  bool estimate_space_error = false;
   std::vector<StageCost> costs{};
 
   // Runs one stage: shows it, measures it, and returns what it made.

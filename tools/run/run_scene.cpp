@@ -81,11 +81,11 @@ Ending run_to_an_end(RunContext& context, Json& summary) {
 
 }  // namespace
 
-int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress) {
+int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
   catch_interrupts();
   prepare_directory(scene, files);
   say_models(scene, progress);
-  RunContext context{scene, files, progress, start == Start::resume};
+  RunContext context{scene, files, progress, start == Start::resume, space_errors == SpaceErrors::estimated};
   Json summary = opening_summary(scene, "running");
   const Ending ending = run_to_an_end(context, summary);
   summary["status"] = ending.status;

@@ -175,6 +175,10 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"least_temperature_ever", state.reached.least},
                      {"largest_temperature_ever", state.reached.largest}};
   if (const auto beyond = thermal::overshoot(outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
+  if (outcome.space_error) {
+    summary["heat"]["space_error"]["largest"] = outcome.space_error->largest;
+    if (outcome.space_error->relative) summary["heat"]["space_error"]["relative"] = *outcome.space_error->relative;
+  }
 }
 
 void add_stages(Json& summary, const std::vector<StageCost>& costs) {
