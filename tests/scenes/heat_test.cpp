@@ -59,6 +59,20 @@ TEST(Slab, FollowsTheSeriesToAHundredthAtAllTimesOnHalfTheMeshSize) {
   EXPECT_LT(largest_error(run, 0.5), 0.01);
 }
 
+TEST(PapersBar, FollowsTheSeriesWithinTwoHundredthsOverTheWholeHistory) {
+  const SceneRun run = test::run("bar", fresh_directory("bar"));
+  ASSERT_EQ(run.exit_status, 0);
+  EXPECT_EQ(run.summary["elements"], 398);
+  EXPECT_LT(largest_error(run, 0.5), 0.02);
+}
+
+TEST(PapersBar, FollowsTheSeriesWithinAHundredthFromOneSecondOnWithAFineTolerance) {
+  const SceneRun run = test::run("bar", fresh_directory("bar_fine"), {"heat.tolerance=0.002 K"});
+  ASSERT_EQ(run.exit_status, 0);
+  EXPECT_LT(largest_error(run, 1), 0.01);
+  EXPECT_LT(largest_error(run, 0.5), 0.012);
+}
+
 TEST(BarsAndJoint, ReachTheClosedFormOfTwoSlabsAndAJoint) {
   const SceneRun run = test::run("bars_and_joint", fresh_directory("bars_and_joint"));
   ASSERT_EQ(run.exit_status, 0);
