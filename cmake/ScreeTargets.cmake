@@ -8,6 +8,7 @@ target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
                                              -ffp-contract=off)
 # GCC 12 takes the empty optional strings of braced aggregates for uninitialised once they are inlined.
 target_compile_options(scree_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+target_link_libraries(scree_flags INTERFACE OpenMP::OpenMP_CXX)
 target_compile_definitions(scree_flags INTERFACE $<$<BOOL:${SCREE_CHECKS}>:SCREE_CHECKS>)
 if(SCREE_SANITIZE)
   target_compile_options(scree_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)

@@ -12,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/key_reference.h"
 #include "engine/base/progress.h"
+#include "engine/base/threads.h"
 #include "engine/base/version.h"
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
@@ -33,6 +34,7 @@ struct Arguments {
   std::string prefix;
   bool quiet = false;
   bool error_estimate = false;
+  int threads = scree::available_processors();
   scree::RenderArguments render;
   scree::accuracy::Arguments accuracy;
 };
@@ -78,6 +80,7 @@ int check(const Arguments& arguments) {
 }
 
 int dispatch(CLI::App& app, const Arguments& arguments) {
+  scree::use_threads(arguments.threads);
   if (app.got_subcommand("run")) return run(arguments);
   if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("check")) return check(arguments);
@@ -100,6 +103,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   for (CLI::App* command : {run, resume}) {
     command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
     command->add_flag("--error-estimate", arguments.error_estimate, "estimate the space error of every element, too");
+    command
+        ->add_option("--threads", arguments.threads,
+                     "how many threads (default: the processors there are); no result depends on it")
+        ->check(CLI::Range(1, 1024));
   }
   CLI::App* check = app.add_subcommand("check", "find everything wrong or suspicious in a scene without running it");
   add_scene(*check, arguments);

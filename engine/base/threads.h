@@ -1,0 +1,15 @@
+// How many threads the parallel loops of this process use. Loops are OpenMP's, and written so that the number of threads does
+// not change a bit of any result: every index writes its own slot, and what is summed over indices is summed in their order.
+#pragma once
+
+namespace scree {
+
+// The processors this process may run on.
+[[nodiscard]] int available_processors();
+
+// At least one. From here on, for the whole process.
+void use_threads(int count);
+
+[[nodiscard]] int threads_in_use();
+
+}  // namespace scree
