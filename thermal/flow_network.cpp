@@ -12,13 +12,15 @@ FlowNetwork::FlowNetwork(const SparseMatrix& conductance) : size_(conductance.ro
 }
 
 Eigen::VectorXd FlowNetwork::leaving(const Eigen::VectorXd& temperature) const {
-  Eigen::VectorXd heat = Eigen::VectorXd::Zero(size_);
+  std::vector<long double> heat(static_cast<std::size_t>(size_), 0);
   for (const Link& link : links_) {
     const double flow = link.conductance * (temperature[link.first] - temperature[link.second]);
     heat[link.first] += flow;
     heat[link.second] -= flow;
   }
-  return heat;
+  Eigen::VectorXd rounded(size_);
+  for (Eigen::Index i = 0; i < size_; ++i) rounded[i] = static_cast<double>(heat[i]);
+  return rounded;
 }
 
 }  // namespace scree::thermal

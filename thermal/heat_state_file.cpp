@@ -92,7 +92,10 @@ const H5::PredType& type_of<std::int64_t>() {
 template <class T>
 void put(H5::H5File& file, const char* name, const std::vector<T>& list) {
   const hsize_t size = list.size();
-  file.createDataSet(name, type_of<T>(), H5::DataSpace(1, &size)).write(list.data(), type_of<T>());
+  // The same state is the same file, whenever it is written.
+  H5::DSetCreatPropList timeless;
+  H5Pset_obj_track_times(timeless.getId(), false);
+  file.createDataSet(name, type_of<T>(), H5::DataSpace(1, &size), timeless).write(list.data(), type_of<T>());
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +23,18 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
+constexpr std::string_view exact_ending = " exact";
+
 }  // namespace
+
+std::string exact_column(const std::string& probe) {
+  return probe + std::string(exact_ending);
+}
+
+std::optional<std::string> probe_of_exact_column(const std::string& column) {
+  if (!column.ends_with(exact_ending)) return std::nullopt;
+  return column.substr(0, column.size() - exact_ending.size());
+}
 
 ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,
                        const std::vector<std::string>& names)

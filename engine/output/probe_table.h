@@ -2,10 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace scree::output {
+
+// How the column of a probe's exact value is called, and back: nothing for any other column.
+std::string exact_column(const std::string& probe);
+std::optional<std::string> probe_of_exact_column(const std::string& column);
 
 // probes.csv: comment lines (#) that say in which block each probe lies and where, then a header, `time` and a column per probe
 // named after it, then a row per time. Numbers are in their shortest form that reads back to the same double; a name with a

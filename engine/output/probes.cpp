@@ -127,7 +127,7 @@ std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const st
       problems.push_back(in_a_void<dim>(spec, mesh, nearest));
       continue;
     }
-    Probe<dim> probe{spec.name, blocks[nearest.element], nearest.element, nearest.weights, point, nearest.distance};
+    Probe<dim> probe{spec.name, blocks[nearest.element], nearest.element, nearest.weights, point, nearest.distance, spec.exact};
     if (probe.moved > 0) {
       probe.point.setZero();
       for (int i = 0; i <= dim; ++i) probe.point += nearest.weights[i] * mesh.nodes[mesh.elements[nearest.element][i]];
@@ -148,6 +148,35 @@ double value_at(const Probe<dim>& probe, const mesh::BlockMesh<dim>& mesh, const
 }
 
 template <int dim>
+std::optional<double> exact_at(const Probe<dim>& probe, double time) {
+  if (!probe.exact) return std::nullopt;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  place.head<dim>() = probe.point;
+  return (*probe.exact)(place, time);
+}
+
+template <int dim>
+std::vector<std::string> columns(const std::vector<Probe<dim>>& probes) {
+  std::vector<std::string> names;
+  for (const Probe<dim>& probe : probes) {
+    names.push_back(probe.name);
+    if (probe.exact) names.push_back(exact_column(probe.name));
+  }
+  return names;
+}
+
+template <int dim>
+std::vector<double> column_values(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh,
+                                  const Eigen::VectorXd& nodal, double time) {
+  std::vector<double> values;
+  for (const Probe<dim>& probe : probes) {
+    values.push_back(value_at(probe, mesh, nodal));
+    if (const auto exact = exact_at(probe, time)) values.push_back(*exact);
+  }
+  return values;
+}
+
+template <int dim>
 std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh) {
   std::vector<std::string> lines;
   lines.reserve(probes.size());
@@ -163,6 +192,14 @@ template std::vector<Probe<2>> locate_probes(const mesh::BlockMesh<2>&, const st
 template std::vector<Probe<3>> locate_probes(const mesh::BlockMesh<3>&, const std::vector<ProbeSpec>&);
 template double value_at(const Probe<2>&, const mesh::BlockMesh<2>&, const Eigen::VectorXd&);
 template double value_at(const Probe<3>&, const mesh::BlockMesh<3>&, const Eigen::VectorXd&);
+template std::optional<double> exact_at(const Probe<2>&, double);
+template std::optional<double> exact_at(const Probe<3>&, double);
+template std::vector<std::string> columns(const std::vector<Probe<2>>&);
+template std::vector<std::string> columns(const std::vector<Probe<3>>&);
+template std::vector<double> column_values(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&, const Eigen::VectorXd&,
+                                           double);
+template std::vector<double> column_values(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&, const Eigen::VectorXd&,
+                                           double);
 template std::vector<std::string> describe(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&);
 template std::vector<std::string> describe(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&);
 

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "engine/base/check.h"
+#include "engine/base/function.h"
 #include "engine/mesh/block_mesh.h"
 #include "engine/output/probe_table.h"
 
@@ -20,6 +22,7 @@ struct ProbeSpec {
   // How far the probe may be moved to lie on the nearest block's surface [m]. A pile has voids, and which point of it is one
   // differs from packing to packing; 0 makes a probe in a void an error.
   double reach = 0;
+  std::optional<Function> exact{};  // the value there as known from elsewhere, to compare with
   SourceLocation where{};
 };
 
@@ -32,12 +35,26 @@ struct Probe {
   std::array<double, dim + 1> weights{};  // of the element's nodes
   Point<dim> point;                       // where it is, after moving [m]
   double moved = 0;                       // [m]
+  std::optional<Function> exact{};        // as in its ProbeSpec
 };
 
 // The element that holds each probe, boundary included; of several (blocks that penetrate each other, a shared face) the one
 // with the lowest number. Throws InputError listing every probe in a void, with the nearest block, its body and distance.
 template <int dim>
 std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs);
+
+// The columns of the probes' table: each probe's name, and after it `NAME exact` if its exact value is known.
+template <int dim>
+std::vector<std::string> columns(const std::vector<Probe<dim>>& probes);
+
+// The values of these columns at a time [s]. Throws InputError where an exact value is not defined.
+template <int dim>
+std::vector<double> column_values(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh,
+                                  const Eigen::VectorXd& nodal, double time);
+
+// The exact value of a probe at a time [s]; nothing if it is not known.
+template <int dim>
+std::optional<double> exact_at(const Probe<dim>& probe, double time);
 
 template <int dim>
 double value_at(const Probe<dim>& probe, const mesh::BlockMesh<dim>& mesh, const Eigen::VectorXd& nodal);

@@ -70,6 +70,16 @@ TEST(Analysis, ErrorsAreTheLargestAndTheRootMeanSquareAfterTheStart) {
   EXPECT_DOUBLE_EQ(*run.rms_error, std::sqrt(12.5));
 }
 
+TEST(Analysis, AnExactSolutionGivesEveryRunAnErrorTheFinestToo) {
+  ProbeHistory history;
+  history.times = {0, 1, 2};
+  history.values["a"] = {0, 3, 4};
+  history.exact["a"] = {0, 3.5, 4};
+  Measured run;
+  compare(history, exact_of(history), run);
+  EXPECT_DOUBLE_EQ(*run.max_error, 0.5);
+}
+
 TEST(Analysis, AReferenceThatKnowsNoProbeIsAnError) {
   ProbeHistory history;
   history.times = {1};

@@ -35,6 +35,17 @@ TEST(Ladder, RunsTheExplicitSchemeOncePerMeshSinceItsStepsFollowFromStability) {
   EXPECT_EQ(ladder_of(scene("slab"), options).size(), 1u);
 }
 
+TEST(Ladder, OfASteadyStateVariesTheMeshAlone) {
+  const Scene steady = scene("cooled_plate");
+  ASSERT_TRUE(steady.heat->time.steady);
+  const auto ladder = ladder_of(steady, {});
+  EXPECT_EQ(ladder.size(), 3u);
+  for (const Rung& rung : ladder) scene("cooled_plate", overrides_of(steady, rung));
+  LadderOptions options;
+  options.tolerances = {1};
+  EXPECT_THROW(ladder_of(steady, options), InputError);
+}
+
 TEST(Ladder, EveryRungIsASceneThatReads) {
   const Scene slab = scene("slab");
   for (const Rung& rung : ladder_of(slab, {})) {

@@ -95,7 +95,7 @@ TEST_P(Contrasts, OfMaterialsGiveTheSteadyTemperatureOfResistancesInSeries) {
     const double expected = first ? 400 - flow * x / (4 * 0.1) : 300 + flow * (1 - x) / (k * 0.1);
     EXPECT_NEAR(run.state().temperature[node.value()], expected, 1e-5) << "x " << x;
   }
-  EXPECT_LT(run.state().ledger.relative_residual(), 1e-8);
+  EXPECT_LT(run.state().ledger.relative_residual(), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Million, Contrasts,

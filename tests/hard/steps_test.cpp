@@ -34,7 +34,7 @@ TEST(Steps, FromAMicrosecondToThirtyYearsStayInTheRangeOfTheData) {
       run.advance_to(length);
       EXPECT_TRUE(run.state().temperature.allFinite());
       EXPECT_LE(run.state().time_error, 1) << length;
-      EXPECT_LT(run.state().ledger.relative_residual(), 1e-9) << length;
+      EXPECT_LT(run.state().ledger.relative_residual(), 1e-10) << length;
     }
   }
 }

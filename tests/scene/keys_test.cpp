@@ -187,7 +187,8 @@ std::vector<Change> heat_changes() {
           {"output.every", {}, "output.every=1"},
           {"output.probes.*", {}, "output.probes.low=[1, 0, 0]"},
           {"output.probes.*.point", {}, "output.probes.high.point=[1, 0, 0]"},
-          {"output.probes.*.reach", {}, "output.probes.high.reach=1"}};
+          {"output.probes.*.reach", {}, "output.probes.high.reach=1"},
+          {"output.probes.*.exact", {}, "output.probes.high.exact=40 degC"}};
 }
 
 std::map<std::string, Change> all_changes() {

@@ -82,6 +82,8 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
       "accuracy " + scene("slab") +
       " --quiet --mesh 2 1 --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --set heat.until=\"10 s\" --out " + directory.string());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("against the exact solution of the scene"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("reference"), std::string::npos) << "the finest run has an error, too";
   EXPECT_NE(outcome.text.find("observed order in time step"), std::string::npos) << outcome.text;
   EXPECT_GT(std::filesystem::file_size(directory / "accuracy.png"), 10000u);
   const std::string table = contents(directory / "accuracy.csv");

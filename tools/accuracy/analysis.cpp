@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,13 +12,6 @@
 namespace scree::accuracy {
 
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
 
 [[noreturn]] void refuse(const std::string& value, const std::string& rule) {
   Problem problem;
@@ -42,32 +35,28 @@ std::string words(const Rung& rung) {
 
 }  // namespace
 
-ProbeHistory read_probes(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) refuse(file, "must be a table of probes that a run has left");
-  ProbeHistory history;
-  std::vector<std::string> names;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    history.times.push_back(std::stod(cells.at(0)));
-    for (std::size_t i = 1; i < names.size(); ++i) history.values[names[i]].push_back(std::stod(cells.at(i)));
-  }
-  return history;
+namespace {
+
+// What is known of a probe at the output time nearest to the asked one.
+Reference columns_as_reference(std::vector<double> times, std::map<std::string, std::vector<double>> columns) {
+  return
+      [times = std::move(times), columns = std::move(columns)](const std::string& probe, double time) -> std::optional<double> {
+        const auto column = columns.find(probe);
+        if (column == columns.end()) return std::nullopt;
+        const auto at = std::min_element(times.begin(), times.end(),
+                                         [&](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
+        return column->second[static_cast<std::size_t>(at - times.begin())];
+      };
 }
 
+}  // namespace
+
 Reference reference_from(const ProbeHistory& history) {
-  return [history](const std::string& probe, double time) -> std::optional<double> {
-    const auto column = history.values.find(probe);
-    if (column == history.values.end()) return std::nullopt;
-    const auto at = std::min_element(history.times.begin(), history.times.end(),
-                                     [&](double a, double b) { return std::abs(a - time) < std::abs(b - time); });
-    return column->second[static_cast<std::size_t>(at - history.times.begin())];
-  };
+  return columns_as_reference(history.times, history.values);
+}
+
+Reference exact_of(const ProbeHistory& history) {
+  return columns_as_reference(history.times, history.exact);
 }
 
 void compare(const ProbeHistory& history, const Reference& reference, Measured& measured) {
@@ -75,8 +64,8 @@ void compare(const ProbeHistory& history, const Reference& reference, Measured& 
   double squares = 0;
   std::size_t count = 0;
   for (const auto& [probe, values] : history.values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto expected = history.times[i] > 0 ? reference(probe, history.times[i]) : std::nullopt;
+    for (std::size_t i = output::first_compared(history); i < values.size(); ++i) {
+      const auto expected = reference(probe, history.times[i]);
       if (!expected) continue;
       const double error = std::abs(values[i] - *expected);
       largest = std::max(largest, error);

@@ -2,32 +2,28 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/output/probe_history.h"
 #include "tools/accuracy/rung.h"
 
 namespace scree::accuracy {
 
-// The columns of a probes.csv.
-struct ProbeHistory {
-  std::vector<double> times;                          // [s]
-  std::map<std::string, std::vector<double>> values;  // by probe, one per time [K]
-};
+using output::ProbeHistory;
 
 // Value of a probe at a time [K], or nothing if the reference does not know that probe.
 using Reference = std::function<std::optional<double>(const std::string& probe, double time)>;
 
-// Throws InputError if the file cannot be read.
-ProbeHistory read_probes(const std::string& file);
-
 // A history as the reference for others with the same output times.
 Reference reference_from(const ProbeHistory& history);
 
-// Fills in the errors of `measured` over all times after the start. Throws InputError if the reference knows none of the
-// probes.
+// The exact values that stand beside a history's own.
+Reference exact_of(const ProbeHistory& history);
+
+// Fills in the errors of `measured` over all times, but not the start of a run in time. Throws InputError if the reference
+// knows none of the probes.
 void compare(const ProbeHistory& history, const Reference& reference, Measured& measured);
 
 // The slope of log(error) over log(size) by least squares; nothing for fewer than two points with a positive error.

@@ -27,6 +27,16 @@ void refuse_mesh_factors(const Scene& scene) {
   throw InputError(problem);
 }
 
+void refuse_time_options(const Scene& scene, const LadderOptions& options) {
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = options.tolerances.empty() ? "--integrator" : "--tolerance";
+  problem.value = "given";
+  problem.rule = "has no use for a steady state, which takes no steps in time";
+  problem.suggestion = "Vary --mesh or --contact";
+  throw InputError(problem);
+}
+
 template <class Value>
 std::vector<Value> or_else(const std::vector<Value>& given, std::vector<Value> otherwise) {
   return given.empty() ? otherwise : given;
@@ -36,9 +46,12 @@ std::vector<Value> or_else(const std::vector<Value>& given, std::vector<Value> o
 
 std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
   if (!options.mesh_factors.empty() && !mesh_can_vary(scene)) refuse_mesh_factors(scene);
+  const bool steady = scene.heat->time.steady;
+  if (steady && !(options.tolerances.empty() && options.integrators.empty())) refuse_time_options(scene, options);
   const double tolerance = scene.heat->time.tolerance;
   auto factors = or_else(options.mesh_factors, mesh_can_vary(scene) ? std::vector<double>{2, 1, 0.5} : std::vector<double>{1});
-  auto tolerances = or_else(options.tolerances, {10 * tolerance, tolerance, 0.1 * tolerance});
+  auto tolerances = or_else(options.tolerances, steady ? std::vector<double>{tolerance}
+                                                       : std::vector<double>{10 * tolerance, tolerance, 0.1 * tolerance});
   std::sort(factors.rbegin(), factors.rend());
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::vector<Rung> ladder;
@@ -71,8 +84,10 @@ std::vector<std::string> overrides_of(const Scene& scene, const Rung& rung) {
       overrides.push_back(fmt::format("bodies.{}.mesh_size={:.17g} m", body.name, rung.mesh_factor * body.mesh_size));
     }
   }
-  overrides.push_back(fmt::format("heat.tolerance={:.17g} K", rung.tolerance));
-  overrides.push_back("heat.integrator=" + rung.integrator);
+  if (!scene.heat->time.steady) {
+    overrides.push_back(fmt::format("heat.tolerance={:.17g} K", rung.tolerance));
+    overrides.push_back("heat.integrator=" + rung.integrator);
+  }
   if (!rung.contact_model.empty()) overrides.push_back("contact.model=" + rung.contact_model);
   return overrides;
 }

@@ -9,9 +9,7 @@ namespace {
 
 template <int dim>
 output::ProbeTable start_table(const RunFiles& files, const HeatedPile<dim>& pile) {
-  std::vector<std::string> names;
-  for (const auto& probe : pile.probes) names.push_back(probe.name);
-  return output::ProbeTable(files.probes(), output::describe(pile.probes, pile.mesh), names);
+  return output::ProbeTable(files.probes(), output::describe(pile.probes, pile.mesh), output::columns(pile.probes));
 }
 
 }  // namespace
@@ -48,11 +46,7 @@ void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   const auto form = scene_.heat->joint.form;
   auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, form);
   contact_series_.write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
-  if (table_) {
-    std::vector<double> values;
-    for (const auto& probe : pile_.probes) values.push_back(output::value_at(probe, pile_.mesh, state.temperature));
-    table_->append(state.time, values);
-  }
+  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, state.temperature, state.time));
   thermal::write(state, pile_.key, restart_);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
+#include "engine/output/probe_history.h"
 #include "engine/output/stored_field.h"
 #include "thermal/steady_state.h"
 #include "tools/run/keys.h"
@@ -122,6 +123,9 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
     scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;
   });
+  if (!outcome.pile.probes.empty()) {
+    outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
+  }
   if (context.estimate_space_error) {
     const auto rate = thermal::temperature_rate(outcome.model, outcome.state.temperature, outcome.state.time);
     outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials, outcome.state.temperature, rate);

@@ -18,6 +18,7 @@ struct HeatOutcome {
   thermal::HeatModel model;
   thermal::HeatState state;  // at the end
   std::string solver;
+  std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, over all times [K]
   std::optional<thermal::SpaceError> space_error;                // at the end, if the user asks for it
   std::optional<thermal::EffectiveConductivity<dim>> effective;  // if the scene asks for it
 };

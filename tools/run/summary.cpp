@@ -4,6 +4,7 @@
 
 #include "engine/base/version.h"
 #include "thermal/joint_report.h"
+#include "thermal/maximum_principle.h"
 #include "tools/run/keys.h"
 #include "tools/scene/doctor.h"
 
@@ -103,6 +104,7 @@ Json probes_json(const HeatOutcome<dim>& outcome) {
                           {"point", std::vector<double>(probe.point.begin(), probe.point.end())},
                           {"moved", probe.moved},
                           {"temperature", output::value_at(probe, outcome.pile.mesh, outcome.state.temperature)}};
+    if (const auto exact = output::exact_at(probe, outcome.state.time)) probes[probe.name]["exact"] = *exact;
   }
   return probes;
 }
@@ -174,6 +176,12 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"largest_temperature", state.temperature.maxCoeff()},
                      {"least_temperature_ever", state.reached.least},
                      {"largest_temperature_ever", state.reached.largest}};
+  if (outcome.exact_error) summary["heat"]["exact_error"] = *outcome.exact_error;
+  const thermal::MaximumPrinciple principle = thermal::maximum_principle(outcome.model);
+  summary["heat"]["maximum_principle"] = {{"holds", principle.reversed == 0},
+                                          {"pairs", principle.pairs},
+                                          {"reversed", principle.reversed},
+                                          {"largest", principle.largest}};
   if (const auto beyond = thermal::overshoot(outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
   if (outcome.space_error) {
     summary["heat"]["space_error"]["largest"] = outcome.space_error->largest;

@@ -284,6 +284,9 @@ Keys output_keys() {
       row("output.probes.*.point", quantity, "Where it is.", q::length).count(vector).required(),
       row("output.probes.*.reach", quantity, "How far it may be moved to lie in a block.", q::length, not_negative)
           .fallback(with_unit(output::ProbeSpec{}.reach, "m")),
+      row("output.probes.*.exact", quantity, "The temperature there as known from elsewhere, to compare with.", q::temperature)
+          .depends(Depends::on_place_and_time)
+          .otherwise("not known"),
   };
 }
 
