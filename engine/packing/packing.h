@@ -26,6 +26,7 @@ struct SettleReport {
   double deepest_overlap = 0;
   double mean_edge = 0;  // of the free blocks' elements [m]
   double top = 0;        // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
+  Table<BlockId, double> net_force;  // on each block in the last step; 0 on fixed and lost ones [N]
   std::vector<BlockId> lost_blocks;  // left the scene; frozen where they left it
 };
 

@@ -15,7 +15,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -33,6 +33,7 @@ constexpr std::array report_numbers{&SettleReport::simulated_time,
 // A packing as plain lists.
 struct Lists {
   std::vector<double> nodes, velocities, poses, report;         // rows of dim, 3, 7 (translation; rotation x y z w), 1
+  std::vector<double> net_force;                                // one per block, of a settled packing
   std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 7, 2, 1
   std::vector<std::int64_t> cells;                              // rows of kind and 8 nodes, -1 for one it does not have
   std::vector<std::int64_t> surfaces, surface_bodies;           // rows of dim nodes and the surface, 1
@@ -76,6 +77,7 @@ Lists pack(const Packing<dim>& packing) {
   if (packing.settled) {
     lists.texts.push_back(packing.settled->criterion);
     for (const auto number : report_numbers) lists.report.push_back((*packing.settled).*number);
+    lists.net_force = packing.settled->net_force.raw();
     lists.outcome.push_back(packing.settled->at_rest ? 1 : 0);
     for (const BlockId block : packing.settled->lost_blocks) lists.outcome.push_back(block.value());
   }
@@ -129,6 +131,7 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
 SettleReport unpack_report(const Lists& lists) {
   SettleReport report;
   for (std::size_t i = 0; i < report_numbers.size(); ++i) report.*report_numbers[i] = lists.report.at(i);
+  report.net_force = Table<BlockId, double>(lists.net_force);
   report.criterion = lists.texts.back();
   report.at_rest = lists.outcome.at(0) != 0;
   for (std::size_t i = 1; i < lists.outcome.size(); ++i) {
@@ -154,7 +157,7 @@ std::string digest(const std::string& key, const Lists& lists) {
   const auto add = [&hasher](const auto& list) {
     hasher.add(list.size()).add_bytes(list.data(), list.size() * sizeof list[0]);
   };
-  for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report}) add(*list);
+  for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report, &lists.net_force}) add(*list);
   for (const auto* list :
        {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.cells, &lists.surfaces, &lists.surface_bodies}) {
     add(*list);
@@ -165,8 +168,9 @@ std::string digest(const std::string& key, const Lists& lists) {
 
 Lists read_lists(const H5::H5File& in) {
   Lists lists;
-  for (const auto& [name, list] : {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities),
-                                   std::pair("poses", &lists.poses), std::pair("report", &lists.report)}) {
+  for (const auto& [name, list] :
+       {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities), std::pair("poses", &lists.poses),
+        std::pair("report", &lists.report), std::pair("net_force", &lists.net_force)}) {
     *list = doubles(in, name);
   }
   for (const auto& [name, list] :
@@ -224,6 +228,7 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put("velocities", lists.velocities, 3);
   image.put("poses", lists.poses, 7);
   image.put("report", lists.report);
+  image.put("net_force", lists.net_force);
   image.put("outcome", lists.outcome);
   image.put("surfaces", lists.surfaces, dim + 1);
   image.put("surface_bodies", lists.surface_bodies);

@@ -58,9 +58,21 @@ void Damping::observe(const World& world, double time_step) {
   }
 }
 
+double Damping::net_force(const World& world, BlockId block) const {
+  return world.mass(block) * motions_[block.index()].acceleration.norm();
+}
+
+Table<BlockId, double> Damping::net_forces(const World& world) const {
+  Table<BlockId, double> forces(motions_.size());
+  for (const BlockId block : world.free_blocks()) {
+    forces[block] = net_force(world, block);
+  }
+  return forces;
+}
+
 double Damping::mean_net_force(const World& world) const {
   double sum = 0;
-  for (const BlockId block : world.free_blocks()) sum += world.mass(block) * motions_[block.index()].acceleration.norm();
+  for (const BlockId block : world.free_blocks()) sum += net_force(world, block);
   return world.free_blocks().empty() ? 0.0 : sum / static_cast<double>(world.free_blocks().size());
 }
 

@@ -24,10 +24,14 @@ class Damping {
   // Takes the net forces of the step just made.
   void observe(const World& world, double time_step);
 
+  // Magnitude of the net force of the last step on every block, damping excluded; 0 on those that are not in the fall [N].
+  [[nodiscard]] Table<BlockId, double> net_forces(const World& world) const;
   // Mean over the free blocks of the magnitude of the net force of the last step, damping excluded [N].
   [[nodiscard]] double mean_net_force(const World& world) const;
 
  private:
+  [[nodiscard]] double net_force(const World& world, BlockId block) const;
+
   struct Motion {
     Eigen::Vector3d velocity;      // before the step [m/s]
     Eigen::Vector3d rotation;      // before the step, world axes [rad/s]

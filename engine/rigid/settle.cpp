@@ -149,6 +149,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   report.rms_speed = motion.rms_speed;
   report.max_speed = motion.max_speed;
   report.unbalanced_force = motion.unbalanced;
+  report.net_force = damping_.net_forces(world_);
   report.max_displacement = watch.displacement();
   report.window = watch.window();
   report.deepest_overlap = deepest_overlap_;

@@ -125,7 +125,8 @@ TEST_F(PackingFile, AReportComesBackToTheBit) {
   auto packing = awkward_packing<3>();
   const double tiny = std::numeric_limits<double>::min();
   packing.settled =
-      SettleReport{true, "slow and balanced", 1.0 / 3, 0.1, 0.2, 0.3, 0.4, 0.5, tiny, 0.6, 0.07, 0.05, 0.46, {BlockId{1}}};
+      SettleReport{true, "slow and balanced", 1.0 / 3, 0.1, 0.2, 0.3, 0.4, 0.5, tiny, 0.6, 0.07, 0.05, 0.46, {}, {BlockId{1}}};
+  packing.settled->net_force = Table<BlockId, double>(std::vector<double>{0, 1.0 / 7});
   write(packing, file());
   const auto back = read<3>(file());
   ASSERT_TRUE(back.settled);
@@ -144,6 +145,7 @@ TEST_F(PackingFile, AReportComesBackToTheBit) {
   EXPECT_EQ(a.mean_edge, b.mean_edge);
   EXPECT_EQ(a.top, b.top);
   EXPECT_EQ(a.lost_blocks, b.lost_blocks);
+  EXPECT_EQ(a.net_force, b.net_force);
 }
 
 TEST_F(PackingFile, EqualPackingsGiveEqualFiles) {

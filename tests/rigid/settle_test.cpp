@@ -69,6 +69,17 @@ TEST(Settle, AStepwiseFallDiffersFromTheClosedFormByHalfAStepOnly) {
   EXPECT_NEAR(poses[BlockId{2}].translation.y(), 0.05, 1e-9);
 }
 
+TEST(Settle, TheNetForceIsTheWeightOfABlockThatFallsAndNoneOnOneAtRest) {
+  mesh::BlockMesh<3> mesh = plate();
+  add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.05}, false);
+  add_box(mesh, {0.1, 0.1, 0.1}, {0.5, 0, 20}, false, {0, 0.1, 0});
+  const auto force = settle(mesh, material(0.5), for_time(0.5)).settled->net_force;
+  const double weight = 2500 * 1e-3 * g;
+  EXPECT_EQ(force[BlockId{0}], 0);
+  EXPECT_NEAR(force[BlockId{1}], 0, 1e-6 * weight);
+  EXPECT_NEAR(force[BlockId{2}], weight, 1e-9 * weight);
+}
+
 TEST(Settle, DampedFallsFollowTheirEquations) {
   mesh::BlockMesh<3> mesh = plate();
   add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 2}, false);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/atomic_file.h"
+#include "tools/run/certificate.h"
 #include "tools/run/summary.h"
 #include "tools/scene/doctor.h"
 
@@ -52,6 +53,12 @@ Ending run_stages(RunContext& context, Json& summary) {
   const Scene& scene = context.scene;
   const PackingOutcome<dim> outcome = packing_stage<dim>(context);
   add_packing(summary, outcome);
+  if constexpr (dim == 3) {
+    if (scene.settle) {
+      summary["settle"]["certificate"] =
+          context.stage("certificate", "what the pile is", [&] { return certificate(scene, outcome.packing); });
+    }
+  }
   if (outcome.packing.settled) {
     auto reasons = unsound(scene, *outcome.packing.settled);
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};

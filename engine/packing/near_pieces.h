@@ -1,0 +1,31 @@
+// The convex pieces of all blocks where they lie, and which of them are near each other.
+#pragma once
+
+#include <vector>
+
+#include "engine/packing/separation.h"
+
+namespace scree::packing {
+
+struct Part {
+  BlockId block;
+  bool fixed = false;
+  PlacedPiece placed;
+  Aabb<3> box;
+};
+
+// The pieces of a mesh and where they are; `parts` point into `pieces`, so that a copy would point into the original.
+struct PieceSet {
+  explicit PieceSet(const mesh::BlockMesh<3>& placed_mesh);
+  PieceSet(const PieceSet&) = delete;
+  PieceSet& operator=(const PieceSet&) = delete;
+
+  Table<BlockId, std::vector<mesh::ConvexPiece>> pieces;
+  std::vector<Part> parts;  // in the order of the blocks
+};
+
+// Two parts of different blocks of which one at least is free, with boxes nearer than `range` [m]: sorted along the axis on
+// which they spread most, each is compared with those that begin before it ends.
+std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range);
+
+}  // namespace scree::packing
