@@ -55,6 +55,29 @@ Aabb<3> view_of(const std::vector<std::string>& corners) {
   return view;
 }
 
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& rule) {
+  Problem wrong;
+  wrong.key = option;
+  wrong.value = value;
+  wrong.rule = rule;
+  throw InputError(wrong);
+}
+
+// Half as many pixels as a picture, since there are many of them.
+constexpr int animation_width = 840;
+constexpr int animation_height = 490;
+
+int animate(const RenderArguments& arguments, output::Picture picture) {
+  picture.width = animation_width;
+  picture.height = animation_height;
+  const double duration = number("--duration", arguments.duration, quantity::time);
+  if (!(duration > 0)) refuse("--duration", arguments.duration, "positive");
+  if (picture.time) refuse("--time", arguments.time, "not given with --animation, which shows all frames");
+  output::animate(picture, duration, arguments.animation);
+  fmt::print("{}\n", arguments.animation);
+  return 0;
+}
+
 }  // namespace
 
 void declare_render(CLI::App& command, RenderArguments& arguments) {
@@ -65,11 +88,17 @@ void declare_render(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--time", arguments.time, "of the frame, such as \"2 h\" (default: the last)");
   command.add_option("--cut", arguments.cut, "leave out what is in front of this y, such as \"0 m\"");
   command.add_option("--view", arguments.view, "low and high corner of what the picture shows: x y z x y z")->expected(6);
+  command.add_flag("--lines", arguments.lines,
+                   "contacts as lines between their blocks, coloured by the size of their heat flow");
+  CLI::Option* animation =
+      command.add_option("--animation", arguments.animation, "all frames as a video instead: FILE.webm or FILE.mp4");
+  command.add_option("--duration", arguments.duration, "of the animation, such as \"20 s\" (default: 10 s)")->needs(animation);
   command.add_option("--picture", arguments.picture, "the PNG (default: SERIES.png in the run's directory)");
 }
 
 int render_command(const RenderArguments& arguments) {
   const std::filesystem::path directory = arguments.directory;
+  if (arguments.lines && arguments.series != "contacts") refuse("--lines", "given", "only with --series contacts");
   const Look look = look_of(arguments);
   output::Picture picture;
   picture.series = directory / (arguments.series + ".pvd");
@@ -79,6 +108,8 @@ int render_command(const RenderArguments& arguments) {
   if (!arguments.time.empty()) picture.time = number("--time", arguments.time, quantity::time);
   if (!arguments.cut.empty()) picture.cut = number("--cut", arguments.cut, quantity::length);
   if (!arguments.view.empty()) picture.view = view_of(arguments.view);
+  picture.lines = arguments.lines;
+  if (!arguments.animation.empty()) return animate(arguments, picture);
   const std::filesystem::path png =
       arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
   output::render(picture, png);

@@ -14,6 +14,9 @@ struct RenderArguments {
   std::string time;               // a quantity; empty: the last frame
   std::string cut;                // y of the plane in front of which nothing is drawn, a quantity; empty: no cut
   std::vector<std::string> view;  // low and high corner, six quantities; empty: everything
+  bool lines = false;             // contacts as lines
+  std::string animation;          // a video instead of a picture; empty: a picture
+  std::string duration = "10 s";  // of the animation, a quantity
   std::string picture;            // empty: SERIES.png in the run's directory
 };
 

@@ -16,6 +16,7 @@ struct Picture {
   std::optional<double> time;    // of the frame [s], the nearest one is drawn; the last frame if not given
   std::optional<Aabb<3>> view;   // what the picture is to show; everything if not given [m]
   std::optional<double> cut;     // shows the inside: only what lies behind the plane y = this [m]
+  bool lines = false;            // of a series of contacts: each as lines to the blocks it joins, by magnitude
   int width = 1200;              // [pixels]
   int height = 700;
   std::string title;                           // of the legend, with the unit; the array's name if empty
@@ -27,5 +28,9 @@ struct Picture {
 // Throws InputError for an array the frame does not have, and RunError for a series that cannot be read, a picture that cannot
 // be written, or a missing Xvfb.
 void render(const Picture& picture, const std::filesystem::path& png);
+
+// Draws all frames, or as many as can be seen in `duration` [s], into a video: .webm (VP9) or .mp4 (H.264), both of which
+// browsers play. One legend and one camera for all. Throws as `render` does, and RunError without ffmpeg.
+void animate(const Picture& picture, double duration, const std::filesystem::path& video);
 
 }  // namespace scree::output

@@ -4,11 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
 
 #include "engine/base/check.h"
+#include "tests/output/pixels.h"
 #include "tests/output/synthetic_pile.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -23,31 +21,6 @@ namespace scree::output {
 namespace {
 
 using ::testing::HasSubstr;
-
-// Pixels of one kind of colour and their mean row, counted from the bottom.
-struct Patch {
-  int pixels = 0;
-  double row = 0;
-};
-
-template <class IsWanted>
-Patch find_pixels(const std::filesystem::path& png, int columns, const IsWanted& is_wanted) {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(png.c_str());
-  reader->Update();
-  vtkImageData& image = *reader->GetOutput();
-  Patch patch;
-  for (int row = 0; row < image.GetDimensions()[1]; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const auto* rgb = static_cast<unsigned char*>(image.GetScalarPointer(column, row, 0));
-      if (!is_wanted(rgb[0], rgb[1], rgb[2])) continue;
-      ++patch.pixels;
-      patch.row += row;
-    }
-  }
-  patch.row /= std::max(1, patch.pixels);
-  return patch;
-}
 
 class RenderTest : public ::testing::Test {
  protected:
