@@ -30,6 +30,9 @@ scree_library(umfpack_api umfpack umfpack.h suitesparse)
 scree_library(hdf5_cpp hdf5_serial_cpp H5Cpp.h hdf5/serial)
 target_link_libraries(hdf5_cpp INTERFACE PkgConfig::hdf5)
 
+# Only tools/bench asks for it, and is left out without it.
+find_package(benchmark QUIET)
+
 if(SCREE_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

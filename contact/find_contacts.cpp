@@ -1,6 +1,7 @@
 #include "contact/find_contacts.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
@@ -9,6 +10,7 @@
 #include "contact/target_search.h"
 #include "contact/touch.h"
 #include "engine/base/check.h"
+#include "engine/base/chunks.h"
 
 namespace scree::contact {
 
@@ -79,20 +81,36 @@ void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options
   const auto counts = [&](FaceId owner, FaceId target) {
     return options.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
   };
-  for (const FaceId face : surface.faces.ids()) {
+  const auto visit = [&](FaceId face, const auto& on_spring, const auto& on_edge) {
     for (int corner = 0; corner < dim; ++corner) {
       const FaceId target = targets.of_springs[face.index() * dim + corner];
-      if (!target.valid() || !counts(face, target)) continue;
-      set.contacts.push_back(point_contact(surface, options, face, corner, target));
+      if (target.valid() && counts(face, target)) on_spring(corner, target);
     }
-    if constexpr (dim == 3) {
-      for (int side = 0; side < 3; ++side) {
-        const EdgeId target = targets.of_edges[face.index() * 3 + side];
-        if (!target.valid() || !counts(face, surface.edges[target].faces[0])) continue;
-        set.contacts.push_back(edge_contact(surface, options, face, side, target));
-      }
+    for (int side = 0; side < 3 && dim == 3; ++side) {
+      const EdgeId target = targets.of_edges[face.index() * 3 + side];
+      if (target.valid() && counts(face, surface.edges[target].faces[0])) on_edge(side, target);
     }
-  }
+  };
+  // How many contacts come before each chunk, then the contacts.
+  const std::size_t faces = surface.faces.size();
+  std::vector<std::size_t> before(chunk_count(faces) + 1, 0);
+  for_chunks(faces, [&](Chunk chunk) {
+    const auto count = [&](int, auto) { ++before[chunk.number + 1]; };
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) visit(FaceId{f}, count, count);
+  });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  set.contacts.resize(before.back());
+  for_chunks(faces, [&](Chunk chunk) {
+    Contact<dim>* next = set.contacts.data() + before[chunk.number];
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+      const FaceId face{f};
+      visit(
+          face, [&](int corner, FaceId target) { *next++ = point_contact(surface, options, face, corner, target); },
+          [&](int side, EdgeId target) {
+            if constexpr (dim == 3) *next++ = edge_contact(surface, options, face, side, target);
+          });
+    }
+  });
 }
 
 }  // namespace

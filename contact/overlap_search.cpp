@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "contact/face_bounds.h"
+#include "contact/near_shells.h"
+#include "engine/base/chunks.h"
 
 namespace scree::contact {
 
@@ -10,26 +11,45 @@ namespace {
 
 using FacePairs = std::vector<std::pair<FaceId, FaceId>>;
 
-// Pairs that cheap bounds do not dismiss, ascending.
+// Are all corners of a face more than `reach` on one side of a plane of the other shell?
 template <int dim>
-FacePairs near_pairs(const Surface<dim>& surface, const Table<FaceId, FaceBounds<dim>>& bounds, const Wanted& wanted) {
-  const auto body_of = [&](FaceId face) { return surface.mesh.blocks[surface.faces[face].block].body; };
-  const auto near = [&](FaceId a, FaceId b) {
-    if (bounds[a].normal.dot(bounds[b].normal) > -least_opposed) return false;
-    const double reach = std::min(bounds[a].reach, bounds[b].reach);
-    // Heights above an inclined plane are at most 1/cos of the gap between the faces.
-    return !all_beyond(heights_above<dim>(bounds[b], corners_of(surface, a)), reach / least_opposed) &&
-           !all_beyond(heights_above<dim>(bounds[a], corners_of(surface, b)), reach / least_opposed);
-  };
-  const FaceGrid<dim> grid(bounds);
-  auto scratch = grid.make_scratch();
-  FacePairs pairs;
-  for (const FaceId face : surface.faces.ids()) {
-    grid.find(face, scratch);
-    for (const FaceId other : scratch.found) {
-      if (near(face, other) && wanted(body_of(face), body_of(other))) pairs.push_back(std::minmax(face, other));
+bool all_beyond(const std::array<double, dim + 1>& heights, const std::array<std::int8_t, dim>& corners, double reach) {
+  double low = heights[corners[0]], high = low;
+  for (const int corner : corners) {
+    low = std::min(low, heights[corner]);
+    high = std::max(high, heights[corner]);
+  }
+  return low > reach || high < -reach;
+}
+
+// The pairs of faces of two shells that may lie on each other.
+template <int dim>
+void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
+  const Shell<dim>&a = pair.first, &b = pair.second;
+  // Heights above an inclined plane are at most 1/cos of the gap between the faces.
+  const double reach = std::min(a.reach, b.reach) / least_opposed;
+  for (int i = 0; i < a.faces; ++i) {
+    for (int j = 0; j < b.faces; ++j) {
+      if (a.normals[i].dot(b.normals[j]) > -least_opposed) continue;
+      if (all_beyond<dim>(pair.above_first[i], b.corners[j], reach) ||
+          all_beyond<dim>(pair.above_second[j], a.corners[i], reach))
+        continue;
+      pairs.push_back(std::minmax(a.face(i), b.face(j)));
     }
   }
+}
+
+// Pairs that cheap bounds do not dismiss, ascending.
+template <int dim>
+FacePairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
+  const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
+  const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
+  std::vector<FacePairs> found(chunk_count(table.shells.size()));
+  visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
+    if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, found[chunk]);
+  });
+  FacePairs pairs;
+  for (const FacePairs& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -57,13 +77,12 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
 
 template <int dim>
 void visit_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const VisitOverlap<dim>& visit) {
-  const auto bounds = face_bounds(surface, tolerance);
   std::vector<OverlapPoint<dim>> points;
-  for (const auto& [first, second] : near_pairs(surface, bounds, wanted)) {
+  for (const auto& [first, second] : near_pairs(surface, tolerance, wanted)) {
     const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
                                          surface.normals[second]);
     if (!pair) continue;
-    overlap_points(*pair, std::min(bounds[first].reach, bounds[second].reach), points);
+    overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
     if (!points.empty()) visit(first, second, points);
   }
 }

@@ -5,6 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "engine/base/chunks.h"
+
 namespace scree::contact {
 
 namespace {
@@ -42,27 +44,35 @@ struct EdgeUse {
 
 // Joins the sorted uses of a block's edges in twos. Where four faces meet in one edge (a block that touches itself), this
 // gives two edges; where the boundary is open, an edge with the same face twice.
-void pair_uses(const std::vector<EdgeUse>& uses, Surface<3>& surface) {
+void pair_uses(const std::vector<EdgeUse>& uses, std::vector<SurfaceEdge>& edges, Surface<3>& surface) {
   for (std::size_t i = 0; i < uses.size();) {
     const bool paired = i + 1 < uses.size() && uses[i].nodes == uses[i + 1].nodes;
     const EdgeUse& second = uses[paired ? i + 1 : i];
-    const EdgeId edge = surface.edges.push_back({uses[i].nodes, {uses[i].face, second.face}});
+    const EdgeId edge{edges.size()};
+    edges.push_back({uses[i].nodes, {uses[i].face, second.face}});
     surface.face_edges[uses[i].face][uses[i].side] = edge;
     surface.face_edges[second.face][second.side] = edge;
     i += paired ? 2 : 1;
   }
 }
 
-// Block by block, since no node is shared between blocks: many small sorts are faster than a big one.
-void add_edges(Surface<3>& surface) {
-  surface.face_edges = Table<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
-  surface.edges.reserve(surface.faces.size() * 3 / 2);
+// Of each block its first face, and the number of faces behind them. Faces come in the order of their blocks.
+template <int dim>
+std::vector<std::size_t> block_starts(const Surface<dim>& surface) {
+  std::vector<std::size_t> starts(surface.mesh.blocks.size() + 1, 0);
+  for (const auto& face : surface.faces) ++starts[face.block.index() + 1];
+  for (std::size_t block = 1; block < starts.size(); ++block) starts[block] += starts[block - 1];
+  return starts;
+}
+
+// Edges of the blocks of a chunk, numbered from 0. Block by block, since no node is shared between blocks: many small
+// sorts are faster than a big one.
+std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk blocks, Surface<3>& surface) {
+  std::vector<SurfaceEdge> edges;
   std::vector<EdgeUse> uses;
-  for (std::size_t first = 0; first < surface.faces.size();) {
+  for (std::size_t block = blocks.begin; block < blocks.end; ++block) {
     uses.clear();
-    std::size_t f = first;
-    const BlockId block = surface.faces[FaceId{first}].block;
-    for (; f < surface.faces.size() && surface.faces[FaceId{f}].block == block; ++f) {
+    for (std::size_t f = starts[block]; f < starts[block + 1]; ++f) {
       const auto& nodes = surface.faces[FaceId{f}].nodes;
       for (int side = 0; side < 3; ++side) {
         const auto [low, high] = std::minmax(nodes[side], nodes[(side + 1) % 3]);
@@ -70,8 +80,41 @@ void add_edges(Surface<3>& surface) {
       }
     }
     std::sort(uses.begin(), uses.end());
-    pair_uses(uses, surface);
-    first = f;
+    pair_uses(uses, edges, surface);
+  }
+  return edges;
+}
+
+void add_edges(const std::vector<std::size_t>& starts, Surface<3>& surface) {
+  surface.face_edges = Table<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
+  const std::size_t blocks = surface.mesh.blocks.size();
+  std::vector<std::vector<SurfaceEdge>> parts(chunk_count(blocks));
+  for_chunks(blocks, [&](Chunk chunk) { parts[chunk.number] = edges_of(starts, chunk, surface); });
+  std::vector<std::size_t> before(parts.size() + 1, 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
+  surface.edges = Table<EdgeId, SurfaceEdge>(before.back());
+  for_chunks(blocks, [&](Chunk chunk) {
+    std::copy(parts[chunk.number].begin(), parts[chunk.number].end(),
+              surface.edges.begin() + static_cast<std::ptrdiff_t>(before[chunk.number]));
+    for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) {
+      for (EdgeId& edge : surface.face_edges[FaceId{f}]) edge = EdgeId{edge.index() + before[chunk.number]};
+    }
+  });
+}
+
+template <int dim>
+void measure_face(FaceId f, Surface<dim>& surface) {
+  const Point<dim> area = area_vector<dim>(corners_of(surface, f));
+  surface.areas[f] = area.norm();
+  surface.normals[f] = area.normalized();
+  surface.lengths[f] = mesh::element_mean_edge(surface.mesh, surface.faces[f].element);
+}
+
+template <int dim>
+void add_node_normals(FaceId f, Surface<dim>& surface) {
+  const Corners<dim> corners = corners_of(surface, f);
+  for (int i = 0; i < dim; ++i) {
+    surface.node_normals[surface.faces[f].nodes[i]] += angle_at<dim>(corners, i) * surface.normals[f];
   }
 }
 
@@ -81,21 +124,19 @@ template <int dim>
 Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
   Surface<dim> surface{mesh, mesh::boundary_faces(mesh), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
-  surface.normals.reserve(count);
-  surface.areas.reserve(count);
-  surface.lengths.reserve(count);
+  surface.normals = Table<FaceId, Point<dim>>(count);
+  surface.areas = Table<FaceId, double>(count);
+  surface.lengths = Table<FaceId, double>(count);
   surface.node_normals = Table<NodeId, Point<dim>>(mesh.nodes.size(), Point<dim>::Zero());
-  for (const FaceId f : surface.faces.ids()) {
-    const Corners<dim> corners = corners_of(surface, f);
-    const Point<dim> area = area_vector<dim>(corners);
-    surface.areas.push_back(area.norm());
-    surface.normals.push_back(area.normalized());
-    surface.lengths.push_back(mesh::element_mean_edge(mesh, surface.faces[f].element));
-    for (int i = 0; i < dim; ++i) {
-      surface.node_normals[surface.faces[f].nodes[i]] += angle_at<dim>(corners, i) * surface.normals[f];
-    }
-  }
-  if constexpr (dim == 3) add_edges(surface);
+  const std::vector<std::size_t> starts = block_starts(surface);
+  for_chunks(count, [&](Chunk faces) {
+    for (std::size_t f = faces.begin; f < faces.end; ++f) measure_face<dim>(FaceId{f}, surface);
+  });
+  // Faces of two blocks have no node in common.
+  for_chunks(mesh.blocks.size(), [&](Chunk blocks) {
+    for (std::size_t f = starts[blocks.begin]; f < starts[blocks.end]; ++f) add_node_normals<dim>(FaceId{f}, surface);
+  });
+  if constexpr (dim == 3) add_edges(starts, surface);
   return surface;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/threads.h"
 #include "tests/contact/builders.h"
 
 namespace scree::contact {
@@ -88,6 +89,33 @@ TEST(ContactSet, DoesNotDependOnTheNumberingOfBlocksAndNodes) {
 TEST(ContactSet, MovesWithTheWhole) {
   move<2>();
   move<3>();
+}
+
+TEST(FindContacts, DoNotDependOnTheNumberOfThreads) {
+  std::mt19937 random(29);
+  const auto mesh = each_its_own<3>(random_simplices<3>(3000, 4, 0.4, random));
+  for (const Model model : {Model::semi_spring, Model::overlap}) {
+    ContactOptions options{0.05, 0.1};
+    options.model = model;
+    std::vector<ContactSet<3>> sets;
+    for (const int threads : {1, 2, 5}) {
+      use_threads(threads);
+      sets.push_back(find_contacts<3>(mesh, options));
+    }
+    use_threads(available_processors());
+    ASSERT_GT(sets[0].contacts.size(), model == Model::semi_spring ? 1000 : 10);
+    for (const auto& set : sets) {
+      ASSERT_EQ(set.contacts.size(), sets[0].contacts.size());
+      for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+        const auto &one = sets[0].contacts[i], &other = set.contacts[i];
+        EXPECT_EQ(one.owner, other.owner);
+        EXPECT_EQ(one.target, other.target);
+        EXPECT_EQ(one.on_target.weights, other.on_target.weights);
+        EXPECT_EQ(one.area, other.area);
+        EXPECT_EQ(one.gap, other.gap);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,58 @@
+// Which boxes meet which, by cells of space.
+//
+// Boxes are sorted into levels by size, each level four times as coarse as the one below. In its level a box is entered once,
+// in the cell of its low corner, and the boxes of a level are sorted by cell, so that those of a row of cells follow one
+// another in memory. A box looks into the cells of its own level and of every coarser one where the low corner of a box may lie
+// that meets it. Time and memory are linear in the number of boxes. The cells repeat themselves outside
+// the region where most boxes are; two cells that share a slot only cost needless tests.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/base/geometry.h"
+
+namespace scree::contact {
+
+template <int dim>
+class BoxGrid {
+ public:
+  explicit BoxGrid(const std::vector<Aabb<dim>>& boxes);
+
+  // Boxes in the order of their cells: neighbours in space are near in it. All below is told in places of this order.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+  // Leaves in `found` the boxes that meet the one at a place. Of every two that meet, just one finds the other. A few that
+  // are a ten-millionth of the scene's size apart are found, too.
+  void find(std::uint32_t place, std::vector<std::uint32_t>& found) const;
+
+ private:
+  // Low corner and negative high corner, in single precision, rounded outwards: boxes meet if no entry of the one is
+  // above that of the other turned round.
+  using Packed = std::array<float, 2 * dim>;
+  using Cell = std::array<std::int64_t, dim>;
+
+  struct Level {
+    std::uint32_t first = 0;  // place of its first box
+    std::uint32_t count = 0;
+    std::array<double, dim> cells_per_metre{};
+    std::array<double, dim> largest{};  // extents of its boxes [m]
+    std::array<int, dim> bits{};        // of the number of cells before they repeat
+    std::vector<std::uint32_t> starts;  // of each slot, as places
+  };
+
+  void make_level(const std::vector<Aabb<dim>>& boxes, std::vector<std::uint32_t> members);
+  void choose_cells(const std::vector<Aabb<dim>>& boxes, const std::vector<std::uint32_t>& members, Level& level) const;
+  [[nodiscard]] Packed pack(const Aabb<dim>& box) const;
+  [[nodiscard]] std::size_t slot_of(const Level& level, const Aabb<dim>& box) const;
+  void look_into(const Level& level, const Packed& box, std::uint32_t before, std::vector<std::uint32_t>& found) const;
+  void test(std::uint32_t from, std::uint32_t to, const Packed& turned, std::vector<std::uint32_t>& found) const;
+
+  Point<dim> origin_ = Point<dim>::Zero();
+  std::vector<Level> levels_;  // from fine to coarse
+  std::vector<std::uint32_t> order_;
+  std::vector<Packed> packed_;
+};
+
+}  // namespace scree::contact

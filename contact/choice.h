@@ -1,0 +1,37 @@
+// Which of several candidates a semi-spring or a semi-edge takes.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace scree::contact {
+
+// Distances that differ by less than this, in characteristic lengths, are equal: more than rounding, less than any gap that
+// matters.
+inline constexpr double equal_distance = 1e-6;
+inline constexpr double equal_score = 1e-6;  // the same for the cosine or fraction that decides between them
+
+template <class Target>
+struct Candidate {
+  Target target;
+  double distance;  // [m]
+  double score;     // the lower the better among those equally close
+};
+
+// The one with the least distance; among those that are as close to `equal` [m], the one with the lowest score, then the lowest
+// id. An invalid id if there is none.
+template <class Target>
+Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& candidate : candidates) least = std::min(least, candidate.distance);
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.target < b.target; });
+  const Candidate<Target>* best = nullptr;
+  for (const auto& candidate : candidates) {
+    if (candidate.distance > least + equal) continue;
+    if (best == nullptr || candidate.score < best->score - equal_score) best = &candidate;
+  }
+  return best == nullptr ? Target{} : best->target;
+}
+
+}  // namespace scree::contact
