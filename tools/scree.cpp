@@ -1,5 +1,5 @@
-// The command: run, resume, check, keys, schema, render, accuracy. Exit status: 0 complete and sound; 1 the run was not; 2 bad
-// input.
+// The command: run, resume, check, keys, schema, render, report, accuracy. Exit status: 0 complete and sound; 1 the run was
+// not; 2 bad input.
 
 #include <cstdio>
 #include <exception>
@@ -18,6 +18,7 @@
 #include "engine/output/read_vtu.h"
 #include "tools/accuracy/accuracy_command.h"
 #include "tools/render_command.h"
+#include "tools/report/report_command.h"
 #include "tools/run/run_scene.h"
 #include "tools/scene/doctor.h"
 #include "tools/scene/keys.h"
@@ -36,6 +37,7 @@ struct Arguments {
   bool error_estimate = false;
   int threads = scree::available_processors();
   scree::RenderArguments render;
+  scree::report::ReportArguments report;
   scree::accuracy::Arguments accuracy;
 };
 
@@ -85,6 +87,7 @@ int dispatch(CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("resume")) return resume(arguments);
   if (app.got_subcommand("check")) return check(arguments);
   if (app.got_subcommand("render")) return scree::render_command(arguments.render);
+  if (app.got_subcommand("report")) return scree::report::report_command(arguments.report);
   if (app.got_subcommand("accuracy")) return scree::accuracy::run(arguments.accuracy);
   const scree::KeyTable& keys = scree::scene_keys();
   fmt::print(
@@ -114,6 +117,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   keys->add_option("prefix", arguments.prefix, "only keys that begin with this, such as heat");
   app.add_subcommand("schema", "print the JSON schema of a scene, for editors");
   scree::declare_render(*app.add_subcommand("render", "draw a picture of a run, without a screen"), arguments.render);
+  scree::report::declare_report(*app.add_subcommand("report", "one page about a run or a study, for a browser"),
+                                arguments.report);
   scree::accuracy::declare(*app.add_subcommand("accuracy", "error against cost: a scene over meshes, tolerances and models"),
                            arguments.accuracy);
 }
