@@ -10,6 +10,8 @@ target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
 target_compile_options(scree_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 target_link_libraries(scree_flags INTERFACE OpenMP::OpenMP_CXX)
 target_compile_definitions(scree_flags INTERFACE $<$<BOOL:${SCREE_CHECKS}>:SCREE_CHECKS>)
+# Nobody replaces our functions in a shared library, so the compiler may inline them there as well.
+target_compile_options(scree_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 if(SCREE_SANITIZE)
   target_compile_options(scree_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(scree_flags INTERFACE -fsanitize=address,undefined)

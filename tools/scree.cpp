@@ -1,5 +1,5 @@
-// The command: run, resume, check, keys, schema, render, report, accuracy. Exit status: 0 complete and sound; 1 the run was
-// not; 2 bad input.
+// The command: run, resume, check, keys, schema, render, report, accuracy, study, plot. Exit status: 0 complete and sound; 1
+// the run was not; 2 bad input.
 
 #include <cstdio>
 #include <exception>
@@ -23,6 +23,8 @@
 #include "tools/scene/doctor.h"
 #include "tools/scene/keys.h"
 #include "tools/scene/read_scene.h"
+#include "tools/study/plot.h"
+#include "tools/study/study_command.h"
 
 namespace {
 
@@ -39,6 +41,8 @@ struct Arguments {
   scree::RenderArguments render;
   scree::report::ReportArguments report;
   scree::accuracy::Arguments accuracy;
+  scree::study::Arguments study;
+  scree::study::PlotArguments plot;
 };
 
 void add_scene(CLI::App& command, Arguments& arguments) {
@@ -89,6 +93,8 @@ int dispatch(CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("render")) return scree::render_command(arguments.render);
   if (app.got_subcommand("report")) return scree::report::report_command(arguments.report);
   if (app.got_subcommand("accuracy")) return scree::accuracy::run(arguments.accuracy);
+  if (app.got_subcommand("study")) return scree::study::run(arguments.study);
+  if (app.got_subcommand("plot")) return scree::study::plot_command(arguments.plot);
   const scree::KeyTable& keys = scree::scene_keys();
   fmt::print(
       "{}", app.got_subcommand("keys") ? scree::key_reference(keys, arguments.prefix) : scree::key_schema(keys, "Scree scene"));
@@ -121,6 +127,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                                 arguments.report);
   scree::accuracy::declare(*app.add_subcommand("accuracy", "error against cost: a scene over meshes, tolerances and models"),
                            arguments.accuracy);
+  scree::study::declare(*app.add_subcommand("study", "make many runs of a scene and one table of them"), arguments.study);
+  scree::study::declare_plot(*app.add_subcommand("plot", "draw one column of a study's table against another"), arguments.plot);
 }
 
 }  // namespace

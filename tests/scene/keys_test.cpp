@@ -124,6 +124,7 @@ std::vector<Change> world_changes() {
           {"settle.rest_unbalanced_force", {}, "settle.rest_unbalanced_force=1"},
           {"settle.rest_window", {}, "settle.rest_window=1"},
           {"settle.frame_interval", {}, "settle.frame_interval=1"},
+          {"settle.seed", {}, "settle.seed=5"},
           {"settle.largest_overlap", {}, "settle.largest_overlap=0.1"},
           {"settle.accept_moving", {}, "settle.accept_moving=true"}};
 }

@@ -151,6 +151,22 @@ TEST(ReadScene, DamagedFilesNeverCrash) {
   }
 }
 
+TEST(ReadScene, ASeedStartsFreeBodiesAsideAcrossGravityAndNeverFarther) {
+  const auto place = [](const Scene& scene, std::size_t body) {
+    return std::get<mesh::AtPoses>(scene.bodies[body].arrangement).poses.front().translation;
+  };
+  const Scene placed = scene_of(whole_scene);
+  const Scene one = scene_of(whole_scene, {"settle.seed=1"});
+  const Scene two = scene_of(whole_scene, {"settle.seed=2"});
+  EXPECT_EQ(place(one, 0), place(placed, 0)) << "a fixed body";
+  EXPECT_NE(place(one, 1), place(two, 1));
+  EXPECT_EQ(place(one, 1), place(scene_of(whole_scene, {"settle.seed=1"}), 1));
+  const Eigen::Vector3d way = place(one, 1) - place(placed, 1);
+  EXPECT_EQ(way.z(), 0);
+  EXPECT_GT(way.norm(), 0);
+  EXPECT_LE(way.cwiseAbs().maxCoeff(), 1e-3 * one.bodies[1].mesh_size * (1 + 1e-9));
+}
+
 }  // namespace
 
 }  // namespace scree

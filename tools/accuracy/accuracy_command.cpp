@@ -11,8 +11,8 @@
 #include "engine/base/progress.h"
 #include "engine/base/units.h"
 #include "tools/accuracy/analysis.h"
-#include "tools/accuracy/child_run.h"
 #include "tools/accuracy/report.h"
+#include "tools/run/child_process.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/read_scene.h"
 
@@ -77,7 +77,7 @@ class Study {
     for (const auto& overrides : {arguments_.overrides, overrides_of(scene_, rung)}) {
       for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
     }
-    const ChildRun child = run_child(words, files.directory / "log");
+    const run::ChildEnd child = run::ChildProcess(words, files.directory / "log").wait();
     Measured measured;
     measured.rung = rung;
     measured.exit_status = child.exit_status;

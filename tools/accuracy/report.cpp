@@ -1,10 +1,8 @@
 #include "tools/accuracy/report.h"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 
-#include "engine/base/check.h"
+#include "tools/run/gnuplot.h"
 
 namespace scree::accuracy {
 
@@ -69,12 +67,7 @@ std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>&
 
 void draw(const std::filesystem::path& csv, const std::filesystem::path& picture) {
   const std::string script = fmt::format(plot, fmt::arg("csv", csv.string()), fmt::arg("picture", picture.string()));
-  std::FILE* gnuplot = popen("gnuplot", "w");
-  if (gnuplot == nullptr) throw RunError("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
-  std::fputs(script.c_str(), gnuplot);
-  if (pclose(gnuplot) != 0 || !std::filesystem::exists(picture)) {
-    throw RunError(fmt::format("gnuplot could not draw {}. Run tools/setup, or apt-get install gnuplot-nox", picture.string()));
-  }
+  run::draw_by_gnuplot(script, picture);
 }
 
 }  // namespace scree::accuracy

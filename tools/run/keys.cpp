@@ -7,6 +7,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/version.h"
+#include "tools/run/run_files.h"
 
 namespace scree::run {
 
@@ -49,12 +50,29 @@ void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
   }
 }
 
-// The content of the tables the scene names; reading it made sure that they are there.
+// A file that is not there counts as an empty one; whoever reads it will complain.
+void add_content(Hasher& hash, const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  hash.add(std::string(std::istreambuf_iterator<char>(stream), {}));
+}
+
+// The content of the tables the scene names.
 void add_tables(Hasher& hash, const Scene& scene) {
-  for (const std::filesystem::path& table : scene.tables) {
-    std::ifstream stream(table, std::ios::binary);
-    hash.add(std::string(std::istreambuf_iterator<char>(stream), {}));
+  for (const std::filesystem::path& table : scene.tables) add_content(hash, table);
+}
+
+void add_mesh_files(Hasher& hash, const Scene& scene) {
+  for (const mesh::BodySpec& body : scene.bodies) {
+    if (const auto* file = std::get_if<mesh::MeshFile>(&body.shape)) add_content(hash, file->path);
   }
+}
+
+void add_fall(Hasher& hash, const Scene& scene) {
+  for (const Material& material : scene.materials) {
+    add(hash, material.density);
+    hash.add(material.friction).add(material.restitution);
+  }
+  add_section(hash, scene, "settle");
 }
 
 }  // namespace
@@ -64,11 +82,29 @@ std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   Hasher hash;
   hash.add("packing").add(version());
   add_mesh(hash, mesh);
-  for (const Material& material : scene.materials) {
-    add(hash, material.density);
-    hash.add(material.friction).add(material.restitution);
+  add_fall(hash, scene);
+  return hash.hex();
+}
+
+std::string fall_key(const Scene& scene) {
+  Hasher hash;
+  hash.add("fall").add(version());
+  add_section(hash, scene, "bodies");
+  add_mesh_files(hash, scene);
+  add_fall(hash, scene);
+  return hash.hex();
+}
+
+std::string run_key(const Scene& scene, bool space_errors) {
+  Hasher hash;
+  hash.add("run").add(version()).add(scene.effective).add(space_errors);
+  add_tables(hash, scene);
+  add_mesh_files(hash, scene);
+  if (scene.packing) add_content(hash, *scene.packing);
+  if (scene.initial_field) {
+    const std::filesystem::path& from = scene.initial_field->from;
+    add_content(hash, std::filesystem::is_directory(from) ? RunFiles{from}.summary() : from);
   }
-  add_section(hash, scene, "settle");
   return hash.hex();
 }
 

@@ -17,6 +17,12 @@ std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh);
 template <int dim>
 std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing, const Eigen::VectorXd* start);
 
+// What is known of a packing before anything is meshed: scenes of one key come to the same packing.
+std::string fall_key(const Scene& scene);
+
+// All that a whole run depends on: the effective scene, the files it names, and whether errors in space are estimated.
+std::string run_key(const Scene& scene, bool space_errors);
+
 // Of the effective scene, for the summary.
 std::string scene_hash(const Scene& scene);
 

@@ -11,6 +11,7 @@
 #include "thermal/heat_options.h"
 #include "tools/scene/heat_keys.h"
 #include "tools/scene/key_lists.h"
+#include "tools/scene/scene.h"
 
 namespace scree {
 
@@ -214,6 +215,11 @@ Keys settle_keys() {
           .fallback(fmt::format("{}", by_default.iterations)),
       row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd.", q::time, positive)
           .fallback(with_unit(by_default.frame_interval, "s")),
+      row("settle.seed", integer,
+          "Another seed starts every free body aside by up to a thousandth of its mesh_size, for another packing; 0: as "
+          "placed.")
+          .range(Range{.low = 0, .high = 1e9})
+          .fallback(fmt::format("{}", SettleStage{}.seed)),
       row("settle.largest_overlap", quantity,
           "Largest overlap of two blocks at the end, over the mean edge, that is no failure.", q::number, positive)
           .fallback("0.02"),

@@ -80,6 +80,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.materials = read_materials(checked.at("materials"), scene.dimension, problems);
   scene.bodies = read_bodies(checked, scene.dimension, problems);
   if (const Checked* settle = checked.find("settle")) scene.settle = read_settle(*settle, problems);
+  if (scene.settle) start_aside(*scene.settle, scene.bodies);
   if (const Checked* packing = checked.find("packing")) {
     check_packing(*packing, problems);
     scene.packing = packing->text;

@@ -19,6 +19,7 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.rest_window = settle.at("rest_window").number();
   options.iterations = settle.at("iterations").integer();
   options.frame_interval = settle.at("frame_interval").number();
+  stage.seed = settle.at("seed").integer();
   stage.largest_overlap = settle.at("largest_overlap").number();
   stage.accept_moving = settle.at("accept_moving").flag();
 

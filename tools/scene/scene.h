@@ -18,6 +18,7 @@ namespace scree {
 
 struct SettleStage {
   rigid::SettleOptions options;
+  int seed = 0;  // another one, another packing of the same bodies; 0: they start exactly where they are placed
   double largest_overlap = 0.02;  // of two blocks at rest, over the mean edge, that a sound run may have [-]
   bool accept_moving = false;     // a pile still moving at the limit is accepted: exit 0, and the summary says so
 };

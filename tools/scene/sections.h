@@ -16,6 +16,8 @@ using Problems = std::vector<Problem>;
 Table<MaterialId, Material> read_materials(const Checked& materials, int dimension, Problems& problems);
 std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Problems& problems);
 SettleStage read_settle(const Checked& settle, Problems& problems);
+// Moves the free bodies aside as the seed says, across gravity.
+void start_aside(const SettleStage& settle, std::vector<mesh::BodySpec>& bodies);
 contact::ContactOptions read_contact(const Checked& contact);
 thermal::JointOptions read_joint(const Checked& scene, Problems& problems);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);

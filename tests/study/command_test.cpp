@@ -1,0 +1,229 @@
+// `scree study` as a user meets it, on a block that falls onto a hot plate.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/output/probe_history.h"
+#include "tests/study/study_text.h"
+#include "tools/study/table.h"
+
+namespace scree::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Each;
+using testing::HasSubstr;
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct Ended {
+  int status = 0;
+  std::string text;  // of standard output and standard error
+};
+
+Ended shell(const std::string& command, const fs::path& folder) {
+  const fs::path log = folder / "said";
+  const int status = std::system((command + " > " + log.string() + " 2>&1").c_str());
+  return {WEXITSTATUS(status), contents(log)};
+}
+
+// A study in a folder of its own, and what to do with it.
+struct OneStudy {
+  explicit OneStudy(const std::string& text) : file(study_file(falling_scene, text)), out(file.parent_path() / "out") {}
+
+  [[nodiscard]] std::string command(const std::string& options) const {
+    return std::string(SCREE_PROGRAM) + " study " + file.string() + " --quiet --out " + out.string() + " " + options;
+  }
+  [[nodiscard]] Ended run(const std::string& options = "") const { return shell(command(options), file.parent_path()); }
+  [[nodiscard]] study::Table table() const { return study::read_table(out / "table.h5"); }
+  [[nodiscard]] nlohmann::json summary(std::size_t row) const {
+    return nlohmann::json::parse(contents(out / table().find("directory")->texts[row] / "summary.json"));
+  }
+
+  fs::path file;
+  fs::path out;
+};
+
+const std::string two_by_two = R"(
+scene: scene.yaml
+vary: [{key: contact.stiffness_factor, values: [1, 100]}]
+ensemble: {key: settle.seed, members: 2}
+report:
+  - heat.probes.top.temperature
+  - {column: warm, probe: top, reaches: 350 K}
+  - settle.top
+)";
+
+bool settled_here(const nlohmann::json& summary) {
+  return !summary["settle"]["reused"].get<bool>();
+}
+
+TEST(StudyCommand, SettlesOncePerSeedHeatsEveryRunAndTabulatesThem) {
+  const OneStudy study(two_by_two);
+  const Ended ended = study.run("--jobs 2");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const study::Table table = study.table();
+  ASSERT_EQ(table.rows(), 4u);
+  EXPECT_THAT(table.find("status")->texts, Each("complete"));
+  int settled = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto summary = study.summary(i);
+    settled += settled_here(summary) ? 1 : 0;
+    EXPECT_EQ(table.find("heat.probes.top.temperature")->numbers[i], summary["heat"]["probes"]["top"]["temperature"]);
+    const auto probes = output::read_probe_history(study.out / table.find("directory")->texts[i] / "probes.csv");
+    const double warm = table.find("warm")->numbers[i];
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(probes.times.begin(), probes.times.end(), warm) - probes.times.begin());
+    EXPECT_GE(probes.values.at("top").at(after), 350);
+    EXPECT_LE(probes.values.at("top").at(after - 1), 350);
+  }
+  EXPECT_EQ(settled, 2);
+  EXPECT_GT(table.find("warm")->numbers[0], table.find("warm")->numbers[2]) << "a weaker joint heats later";
+  const study::Table means = study::read_table(study.out / "ensembles.h5");
+  EXPECT_DOUBLE_EQ(means.find("warm.mean")->numbers[0], (table.find("warm")->numbers[0] + table.find("warm")->numbers[1]) / 2);
+}
+
+TEST(StudyCommand, GivesTheResultsOfSingleRuns) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run().status, 0);
+  const fs::path alone = study.file.parent_path() / "alone";
+  const Ended ended = shell(std::string(SCREE_PROGRAM) + " run " + (study.file.parent_path() / "scene.yaml").string() +
+                                " --quiet --out " + alone.string() + " --set contact.stiffness_factor=100 --set settle.seed=2",
+                            study.file.parent_path());
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  EXPECT_EQ(contents(alone / "probes.csv"), contents(study.out / study.table().find("directory")->texts[3] / "probes.csv"));
+}
+
+TEST(StudyCommand, MakesNothingTwice) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run().status, 0);
+  const std::string before = contents(study.out / "table.csv");
+  ASSERT_EQ(study.run().status, 0);
+  EXPECT_EQ(contents(study.out / "table.csv"), before) << "the same wall times: no run was started";
+}
+
+TEST(StudyCommand, GoesOnWhereItWasKilled) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run("--task 1").status, 0);
+  // The second run as a kill in its heat leaves it: a summary that says running, a packing, no end.
+  ASSERT_EQ(study.run("--task 2").status, 0);
+  ASSERT_EQ(study.run("--gather").status, 1) << "two runs are not made";
+  const fs::path second = study.out / study.table().find("directory")->texts[1];
+  nlohmann::json summary = study.summary(1);
+  summary["status"] = "running";
+  std::ofstream(second / "summary.json") << summary.dump();
+  fs::remove(second / "outcome.json");
+  const auto first_made = fs::last_write_time(study.out / study.table().find("directory")->texts[0] / "summary.json");
+  ASSERT_EQ(study.run().status, 0);
+  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+  EXPECT_EQ(fs::last_write_time(study.out / study.table().find("directory")->texts[0] / "summary.json"), first_made);
+}
+
+// Long enough that nobody ends it by accident.
+std::string slow_study() {
+  return two_by_two + "set: [heat.until=40 h]\n";
+}
+
+// Starts the study in the background, and goes on with `next` when its first run is under way.
+Ended while_it_runs(const OneStudy& study, const std::string& next) {
+  const std::string first = (study.out / "runs").string() + "/*/scene.yaml";
+  return shell(fmt::format("({} & study=$!; until ls {} >/dev/null 2>&1; do sleep 0.01; done; {})", study.command("--jobs 1"),
+                           first, next),
+               study.file.parent_path());
+}
+
+TEST(StudyCommand, StopsItsRunsWhenInterruptedAndGoesOnLater) {
+  const OneStudy study(slow_study());
+  const Ended ended = while_it_runs(study, "kill -TERM $study; wait $study");
+  EXPECT_EQ(ended.status, 130) << ended.text;
+  EXPECT_EQ(study.run().status, 0);
+  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+}
+
+TEST(StudyCommand, RecordsARunThatFailsWithItsReasonAndMakesTheOthers) {
+  const OneStudy study(R"(
+scene: scene.yaml
+vary: [{key: settle.limit, values: [5 s, 10 ms]}, {key: heat.until, values: [1 h, 2 h]}]
+report: [heat.time]
+)");
+  EXPECT_EQ(study.run().status, 1);
+  const study::Table table = study.table();
+  EXPECT_THAT(table.find("status")->texts, testing::ElementsAre("complete", "complete", "not_settled", "not_settled"));
+  EXPECT_THAT(table.find("reason")->texts[2], HasSubstr("still moving"));
+  EXPECT_THAT(table.find("heat.time")->numbers, testing::ElementsAre(3600, 7200, testing::IsNan(), testing::IsNan()));
+}
+
+TEST(StudyCommand, RefusesWhatIsWrongBeforeAnyRun) {
+  const OneStudy study("scene: scene.yaml\nvary: [{key: heat.tolerance, values: [1 K, 2 m]}]\nreport: [heat.time]\n");
+  const Ended ended = study.run();
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.text, HasSubstr("heat.tolerance is 2 m"));
+  EXPECT_FALSE(fs::exists(study.out));
+}
+
+TEST(StudyCommand, SaysWhenAFigureIsInNoSummary) {
+  const OneStudy study("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h]}]\nreport: [heat.tme]\n");
+  const Ended ended = study.run();
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.text, HasSubstr("s.yaml:3:10: report: heat.tme is in no summary.json. Did you mean heat.time?"));
+}
+
+TEST(StudyCommand, MakesItsRunsAsTasksAtOnceWithTheSamePackings) {
+  const OneStudy study(two_by_two);
+  std::string tasks;
+  for (int i = 1; i <= 4; ++i) tasks += fmt::format("{} & ", study.command(fmt::format("--task {}", i)));
+  shell(fmt::format("({} wait)", tasks), study.file.parent_path());
+  EXPECT_EQ(study.run("--gather").status, 0);
+  const study::Table table = study.table();
+  EXPECT_THAT(table.find("status")->texts, Each("complete"));
+  int settled = 0;
+  for (std::size_t i = 0; i < 4; ++i) settled += settled_here(study.summary(i)) ? 1 : 0;
+  EXPECT_EQ(settled, 2);
+}
+
+TEST(StudyCommand, IsNotMadeTwiceAtATimeInOneFolder) {
+  const OneStudy study(slow_study());
+  const Ended ended = while_it_runs(study, study.command("") + "; echo second $?; kill -TERM $study; wait");
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("at work there"), HasSubstr("second 1")));
+}
+
+// A kill of the study leaves its run at work, which then holds the lock.
+TEST(StudyCommand, WaitsForRunsThatAKilledStudyHasLeftBehind) {
+  const OneStudy study(slow_study());
+  const Ended ended = while_it_runs(study, "kill -KILL $study; wait $study; " + study.command("") + "; echo second $?");
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("at work there"), HasSubstr("second 1")));
+  int status = 1;
+  for (int i = 0; i < 300 && status != 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    status = study.run().status;
+  }
+  EXPECT_EQ(status, 0);
+}
+
+TEST(StudyCommand, DrawsItsTable) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run().status, 0);
+  const Ended ended =
+      shell(std::string(SCREE_PROGRAM) + " plot " + study.out.string() + " --x contact.stiffness_factor --y warm --log x",
+            study.file.parent_path());
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_GT(fs::file_size(study.out / "warm.png"), 5000u);
+}
+
+}  // namespace
+}  // namespace scree::test

@@ -1,0 +1,145 @@
+// What a study file may say, and what is said of one that is wrong.
+#include "tests/study/study_text.h"
+
+#include <gmock/gmock.h>
+
+namespace scree::study {
+namespace {
+
+using test::study_of;
+using test::wrong_with;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(ReadStudy, MakesEveryCombinationTheLastKeyFastest) {
+  const auto runs = plan(study_of(R"(
+scene: scene.yaml
+vary:
+  - {key: contact.stiffness_factor, values: [1, 10]}
+  - {key: heat.initial, values: [300 K, 20 degC, 310]}
+report: [heat.time_error]
+)"));
+  ASSERT_EQ(runs.size(), 6u);
+  EXPECT_THAT(runs[1].overrides, testing::ElementsAre("contact.stiffness_factor=1", "heat.initial=20 degC"));
+  EXPECT_EQ(runs[1].point.levels[1].number, 293.15);
+  EXPECT_THAT(runs[5].overrides, testing::ElementsAre("contact.stiffness_factor=10", "heat.initial=310"));
+}
+
+TEST(ReadStudy, SpacesARangeByDifferencesOrByRatios) {
+  const Study study = study_of(R"(
+scene: scene.yaml
+vary:
+  - {key: contact.stiffness_factor, range: {from: 1, to: 1000, points: 4, spacing: log}}
+  - {key: bodies.block.mesh_size, range: {from: 10 cm, to: 20 cm, points: 3}}
+report: [heat.time_error]
+)");
+  const double factors[] = {1, 10, 100, 1000};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(*study.factors[0].levels[i].number, factors[i], 1e-12 * factors[i]);
+  const double sizes[] = {0.1, 0.15, 0.2};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(*study.factors[1].levels[i].number, sizes[i], 1e-15);
+  EXPECT_EQ(study.factors[1].levels[2].text, "0.20000000000000001 m");
+}
+
+TEST(ReadStudy, PutsOnePointOfALatinHypercubeIntoEveryLayerOfEveryKey) {
+  const Study study = study_of(R"(
+scene: scene.yaml
+vary:
+  - {key: contact.stiffness_factor, range: {from: 1, to: 1000, spacing: log}}
+  - {key: heat.initial, range: {from: 300 K, to: 400 K}}
+latin_hypercube: {points: 20, seed: 7}
+report: [heat.time_error]
+)");
+  std::vector<int> by_ratio(20), by_difference(20);
+  const auto points = points_of(study);
+  ASSERT_EQ(points.size(), 20u);
+  for (const Point& point : points) {
+    ++by_ratio.at(static_cast<std::size_t>(20 * std::log10(*point.levels[0].number) / 3));
+    ++by_difference.at(static_cast<std::size_t>((*point.levels[1].number - 300) / 5));
+  }
+  EXPECT_THAT(by_ratio, testing::Each(1));
+  EXPECT_THAT(by_difference, testing::Each(1));
+  Study other = study;
+  other.hypercube->seed = 8;
+  EXPECT_NE(points_of(other)[0].levels[0].text, points[0].levels[0].text);
+  EXPECT_EQ(points_of(study)[0].levels[0].text, points[0].levels[0].text);
+}
+
+TEST(ReadStudy, RepeatsEveryPointForAnEnsembleAndLetsHeatsShareTheirPacking) {
+  const auto runs = plan(study_of(R"(
+scene: scene.yaml
+vary: [{key: contact.stiffness_factor, values: [1, 10]}]
+ensemble: {key: settle.seed, members: 3}
+report: [heat.time_error]
+)"));
+  ASSERT_EQ(runs.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(runs[i].packing, runs[i + 3].packing) << "the same seed";
+    EXPECT_NE(runs[i].packing, runs[(i + 1) % 3].packing) << "another seed";
+    EXPECT_NE(runs[i].directory, runs[i + 3].directory);
+  }
+  EXPECT_EQ(runs[4].point.number, 1u);
+}
+
+TEST(ReadStudy, LetsAPackingChangeWithAllItDependsOnAndNothingElse) {
+  const auto packing = [](const std::string& key, const std::string& value) {
+    return plan(study_of("scene: scene.yaml\nvary: [{key: " + key + ", values: [" + value + "]}]\nreport: [blocks]\n"))
+        .front()
+        .packing;
+  };
+  const std::string as_it_is = packing("heat.until", "1 h");
+  EXPECT_EQ(packing("materials.ore.conductivity", "9"), as_it_is);
+  EXPECT_EQ(packing("output.every", "2 h"), as_it_is);
+  EXPECT_NE(packing("materials.ore.friction", "0.6"), as_it_is);
+  EXPECT_NE(packing("bodies.block.mesh_size", "0.1"), as_it_is);
+  EXPECT_NE(packing("settle.step", "1 ms"), as_it_is);
+}
+
+TEST(ReadStudy, SaysWhereInTheStudyAValueThatDoesNotSuitTheSceneStands) {
+  EXPECT_THAT(wrong_with("scene: scene.yaml\n"
+                         "vary:\n"
+                         "  - {key: contact.stiffness_factor, values: [10, -3]}\n"
+                         "report: [heat.time_error]\n"),
+              StartsWith("s.yaml:3:50: contact.stiffness_factor is -3 (must be not negative). Did you mean 3?"));
+}
+
+TEST(ReadStudy, NamesTheKeyThatWasProbablyMeant) {
+  const std::string rest = "\nreport: [heat.time_error]\n";
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nvary: [{key: contact.stifness_factor, values: [1]}]" + rest),
+              HasSubstr("s.yaml:2:14: vary[0].key is contact.stifness_factor (must be the path of a key of the scene). Did you "
+                        "mean contact.stiffness_factor?"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nvary: [{key: heat.until, value: [1 h]}]" + rest),
+              HasSubstr("Did you mean values?"));
+  EXPECT_THAT(wrong_with("scene: scne.yaml\nvary: [{key: heat.until, values: [1 h]}]" + rest),
+              HasSubstr("s.yaml:1:8: scene is scne.yaml (must be a scene file that exists)"));
+}
+
+TEST(ReadStudy, RefusesRangesThatGoNowhere) {
+  const auto with = [](const std::string& key, const std::string& range) {
+    return wrong_with("scene: scene.yaml\nvary: [{key: " + key + ", range: {" + range + "}}]\nreport: [blocks]\n");
+  };
+  EXPECT_THAT(with("heat.until", "from: 2 h, to: 1 h, points: 2"), HasSubstr("must be above range.from, 2 h"));
+  EXPECT_THAT(with("heat.until", "from: 0 h, to: 1 h, points: 2, spacing: log"), HasSubstr("must be positive where"));
+  EXPECT_THAT(with("heat.until", "from: 1 m, to: 1 h, points: 2"), HasSubstr("range.from is 1 m"));
+  EXPECT_THAT(with("contact.model", "from: 1, to: 2, points: 2"), HasSubstr("must be values"));
+}
+
+TEST(ReadStudy, RefusesFiguresThatTheScenesRunsCannotReport) {
+  const auto with = [](const std::string& report) {
+    return wrong_with("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h]}]\nreport: [" + report + "]\n");
+  };
+  EXPECT_EQ(with("heat.probes.top.temperature"), "accepted");
+  EXPECT_THAT(with("heat.probes.tip.temperature"), HasSubstr("s.yaml:3:10: report is tip (must be a probe of the scene). Did "
+                                                             "you mean top?"));
+  EXPECT_THAT(with("{column: t, probe: tip, reaches: 350}"), HasSubstr("must be a probe of the scene"));
+  EXPECT_THAT(with("{column: t, probe: top}"), HasSubstr("report[0].reaches is missing"));
+  EXPECT_THAT(with("heet.time_error"), HasSubstr("Did you mean heat?"));
+  EXPECT_THAT(with("effective_conductivity.along.0"), HasSubstr("of use only with heat.effective_conductivity"));
+  EXPECT_THAT(with("blocks, blocks"), HasSubstr("every column must have a name of its own"));
+}
+
+TEST(ReadStudy, RefusesAStudyOfNothing) {
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nreport: [blocks]\n"), HasSubstr("must have vary, ensemble, or both"));
+}
+
+}  // namespace
+}  // namespace scree::study

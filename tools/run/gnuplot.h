@@ -1,0 +1,12 @@
+// Pictures of tables, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace scree::run {
+
+// Draws `commands`, whose output is `picture`. Throws RunError if gnuplot is missing or leaves no picture.
+void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& picture);
+
+}  // namespace scree::run

@@ -1,0 +1,58 @@
+#include "tools/study/batch.h"
+
+#include <fmt/format.h>
+
+namespace scree::study {
+
+namespace {
+
+// For a POSIX shell.
+std::string quoted(const std::string& text) {
+  std::string safe = "'";
+  for (const char c : text) {
+    if (c == '\'') safe += "'\\'";
+    safe += c;
+  }
+  safe += '\'';
+  return safe;
+}
+
+std::string command_of(const Batch& batch, const std::string& what) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  return fmt::format("{} study {} --out {} {}", quoted(program), quoted(std::filesystem::absolute(batch.study).string()),
+                     quoted(std::filesystem::absolute(batch.directory).string()), what);
+}
+
+}  // namespace
+
+std::string slurm_script(const Batch& batch) {
+  const std::string log = (std::filesystem::absolute(batch.directory) / "slurm-%a.log").string();
+  return fmt::format(
+      "#!/bin/sh\n"
+      "# Runs {count} runs of a study as a job array. Submit it with its limits, and gather the results when it has ended:\n"
+      "#   job=$(sbatch --parsable --time=02:00:00 --mem=4G FILE)\n"
+      "#   sbatch --dependency=afterany:$job --wrap {gather}\n"
+      "#SBATCH --job-name=scree-study\n"
+      "#SBATCH --array=1-{count}\n"
+      "#SBATCH --cpus-per-task={threads}\n"
+      "#SBATCH --output={log}\n"
+      "exec {task}\n",
+      fmt::arg("count", batch.tasks), fmt::arg("gather", fmt::format("\"{}\"", command_of(batch, "--gather"))),
+      fmt::arg("threads", batch.threads.value_or(1)), fmt::arg("log", log),
+      fmt::arg("task", command_of(batch, fmt::format("--quiet --task \"$SLURM_ARRAY_TASK_ID\" --threads {}",
+                                                     batch.threads.value_or(1)))));
+}
+
+std::string parallel_script(const Batch& batch) {
+  const int threads = batch.threads.value_or(1);
+  return fmt::format(
+      "#!/bin/sh\n"
+      "# Runs {} runs of a study by GNU parallel, one on a processor unless its options say otherwise, and gathers the "
+      "results.\n"
+      "seq {} | parallel \"$@\" {}\n"
+      "{}\n",
+      batch.tasks, batch.tasks, quoted(command_of(batch, fmt::format("--quiet --threads {} --task {{}}", threads))),
+      command_of(batch, "--gather"));
+}
+
+}  // namespace scree::study

@@ -1,0 +1,191 @@
+#include "tools/study/conductor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "engine/base/threads.h"
+#include "engine/packing/packing.h"
+#include "tools/run/interrupt.h"
+#include "tools/study/outcome.h"
+
+namespace scree::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto pause = std::chrono::milliseconds(20);  // between two looks at the runs
+constexpr double reserve = 1.1;                        // memory kept for a run over the largest so far
+
+// The same file under another name, or a copy where the file system has no such links. Files of packings are replaced, never
+// changed, so that sharing one is safe.
+void share(const fs::path& file, const fs::path& name) {
+  std::error_code no_link;
+  fs::create_hard_link(file, name, no_link);
+  if (no_link && !fs::exists(name)) fs::copy_file(file, name);
+}
+
+}  // namespace
+
+Conductor::Conductor(const Study& study, StudyFiles files, const Means& means, Progress& progress,
+                     std::function<void()> after_each)
+    : study_(study), files_(std::move(files)), means_(means), progress_(progress), after_each_(std::move(after_each)) {}
+
+void Conductor::make(const std::vector<PlannedRun>& runs) {
+  choose(runs);
+  show("");
+  try {
+    while (!waiting_.empty() || !active_.empty()) {
+      run::check_interrupt();
+      start_what_can();
+      collect();
+      std::this_thread::sleep_for(pause);
+    }
+  } catch (const run::Interrupted&) {
+    stop_all();
+    throw;
+  }
+}
+
+// Equal runs are made once; those with a final result are not made again.
+void Conductor::choose(const std::vector<PlannedRun>& runs) {
+  std::set<std::string> chosen;
+  std::set<std::string> packings;
+  for (const PlannedRun& run : runs) {
+    if (!chosen.insert(run.directory).second) continue;
+    ++all_;
+    const Outcome outcome = read_outcome(files_, run.directory);
+    largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
+    if (outcome.is_final()) {
+      ++done_;
+      failed_ += outcome.status == "complete" ? 0 : 1;
+    } else {
+      waiting_.push_back(&run);
+      const bool settles =
+          !run.packing.empty() && !fs::exists(files_.packing(run.packing)) && packings.insert(run.packing).second;
+      if (settles) settling_runs_.insert(&run);
+      forecast_.expect(settles);
+    }
+  }
+}
+
+void Conductor::start_what_can() {
+  for (std::size_t i = 0; i < waiting_.size() && has_room();) {
+    if (try_start(*waiting_[i])) {
+      waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+}
+
+// The first run is alone: it tells how much memory the others will want, and takes all processors meanwhile.
+bool Conductor::has_room() const {
+  if (active_.empty()) return true;
+  if (largest_run_ == 0 || static_cast<int>(active_.size()) >= means_.jobs) return false;
+  return reserve * largest_run_ * static_cast<double>(active_.size() + 1) <= static_cast<double>(means_.memory);
+}
+
+// True if the run need not wait any more: it was started, or cannot be.
+bool Conductor::try_start(const PlannedRun& run) {
+  const fs::path packing = files_.packing(run.packing);
+  if (run.packing.empty() || fs::exists(packing)) {
+    start(run, std::nullopt);
+    return true;
+  }
+  if (const auto failure = failed_packings_.find(run.packing); failure != failed_packings_.end()) {
+    write_refusal(files_, run.directory, failure->second);
+    forecast_.count(false, 0);
+    ++done_;
+    ++failed_;
+    after_each_();
+    return true;
+  }
+  auto lock = FileLock::take(files_.packing_lock(run.packing), FileLock::Kind::exclusive, FileLock::Heirs::none);
+  if (!lock) return false;
+  // Somebody may have put it there just now.
+  if (fs::exists(packing)) lock.reset();
+  start(run, std::move(lock));
+  return true;
+}
+
+void Conductor::start(const PlannedRun& run, std::optional<FileLock> settling) {
+  const run::RunFiles own = files_.run(run.directory);
+  fs::create_directories(own.directory);
+  fs::remove(files_.outcome(run.directory));
+  if (!run.packing.empty() && !settling && !fs::exists(own.packing())) share(files_.packing(run.packing), own.packing());
+  active_.push_back({&run, run::ChildProcess(command_of(run), files_.log(run.directory)), std::move(settling)});
+}
+
+// A run that was begun goes on with the scene it has.
+std::vector<std::string> Conductor::command_of(const PlannedRun& run) const {
+  const run::RunFiles own = files_.run(run.directory);
+  std::vector<std::string> words;
+  if (fs::exists(own.scene())) {
+    words = {"resume", own.directory.string()};
+  } else {
+    words = {"run", study_.scene.string(), "--out", own.directory.string()};
+    for (const std::string& assignment : run.overrides) words.insert(words.end(), {"--set", assignment});
+  }
+  const int sharing = largest_run_ == 0 ? 1 : means_.jobs;
+  const int threads = means_.threads.value_or(std::max(1, available_processors() / sharing));
+  words.insert(words.end(), {"--quiet", "--threads", fmt::format("{}", threads)});
+  if (study_.error_estimate) words.emplace_back("--error-estimate");
+  return words;
+}
+
+// As soon as the run has written its packing, and before its own heat.
+void Conductor::publish_packing(Active& active) const {
+  const fs::path made = files_.run(active.run->directory).packing();
+  if (!active.settling || !fs::exists(made) || !packing::stored_key(made)) return;
+  share(made, files_.packing(active.run->packing));
+  active.settling.reset();
+}
+
+void Conductor::collect() {
+  for (std::size_t i = 0; i < active_.size();) {
+    const auto end = active_[i].process.poll();
+    publish_packing(active_[i]);
+    if (end) {
+      finish(active_[i], *end);
+      active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+}
+
+void Conductor::finish(Active& active, const run::ChildEnd& end) {
+  const PlannedRun& run = *active.run;
+  write_outcome(files_, run.directory, end);
+  const Outcome outcome = read_outcome(files_, run.directory);
+  largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
+  if (active.settling) {
+    failed_packings_[run.packing] =
+        fmt::format("its packing is that of run {}, which has none: {}", run.number, outcome.reason);
+  }
+  forecast_.count(settling_runs_.contains(&run), end.wall_seconds);
+  ++done_;
+  const bool sound = outcome.status == "complete";
+  failed_ += sound ? 0 : 1;
+  after_each_();
+  show(sound ? "" : fmt::format("run {} {}: {}", run.number, outcome.status, outcome.reason));
+}
+
+void Conductor::stop_all() {
+  for (const Active& active : active_) active.process.interrupt();
+  for (Active& active : active_) write_outcome(files_, active.run->directory, active.process.wait());
+  active_.clear();
+  after_each_();
+}
+
+void Conductor::show(const std::string& event) {
+  if (!event.empty()) progress_.note(event);
+  progress_.update(forecast_.done_part(),
+                   fmt::format("{} of {} runs{}", done_, all_, failed_ == 0 ? "" : fmt::format(", {} failed", failed_)));
+}
+
+}  // namespace scree::study

@@ -1,0 +1,18 @@
+// The points of a study: which values stand together in a run.
+#pragma once
+
+#include <vector>
+
+#include "tools/study/study.h"
+
+namespace scree::study {
+
+struct Point {
+  std::size_t number = 0;     // of the combination, without the ensemble, from 0
+  std::vector<Level> levels;  // in the order of Study::varied()
+};
+
+// Every combination, the first key slowest, or the points of the Latin hypercube; the members of the ensemble fastest.
+std::vector<Point> points_of(const Study& study);
+
+}  // namespace scree::study

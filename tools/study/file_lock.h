@@ -1,0 +1,27 @@
+// A lock that processes on one or several machines share, and that ends with whoever holds it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace scree::study {
+
+class FileLock {
+ public:
+  enum class Kind { shared, exclusive };
+  enum class Heirs { none, children };  // whether processes started from now on hold it, too, until they end
+
+  // Nothing if somebody else holds it. Throws RunError if the file cannot be made.
+  static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind, Heirs heirs);
+
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept;
+  ~FileLock();
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+
+  int descriptor_;
+};
+
+}  // namespace scree::study

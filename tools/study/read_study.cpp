@@ -1,0 +1,197 @@
+#include "tools/study/read_study.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "engine/base/checked_input.h"
+#include "engine/base/nearest.h"
+#include "tools/scene/keys.h"
+#include "tools/study/scene_key.h"
+#include "tools/study/study_keys.h"
+
+namespace scree::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Problems = std::vector<Problem>;
+
+class Reader {
+ public:
+  Reader(fs::path file, Problems& problems) : file_(std::move(file)), problems_(problems) {}
+
+  Study read(const Checked& root) {
+    Study study;
+    study.file = file_;
+    study.scene = in_folder(root.at("scene").text);
+    std::error_code ignored;
+    if (root.at("scene").sound && !fs::is_regular_file(study.scene, ignored)) {
+      refuse(root.at("scene"), "must be a scene file that exists");
+    }
+    for (const Checked& change : root.at("set").items) study.overrides.push_back(change.text);
+    study.error_estimate = root.at("error_estimate").flag();
+    for (const Checked& varied : root.at("vary").items) study.factors.push_back(factor(varied));
+    if (const Checked* hypercube = root.find("latin_hypercube")) {
+      study.hypercube =
+          LatinHypercube{hypercube->at("points").integer(), static_cast<std::uint64_t>(hypercube->at("seed").number())};
+    }
+    if (const Checked* ensemble = root.find("ensemble")) study.ensemble = members(*ensemble);
+    for (const Checked& report : root.at("report").items) study.reports.push_back(column(report));
+    check_whole(study, root);
+    return study;
+  }
+
+ private:
+  void refuse(const Checked& value, const std::string& rule, const std::string& suggestion = "") {
+    problems_.push_back(value.problem(value.text.empty() ? "empty" : value.text, rule, suggestion));
+  }
+
+  [[nodiscard]] fs::path in_folder(const std::string& path) const {
+    return (fs::absolute(file_).parent_path() / path).lexically_normal();
+  }
+
+  // The row of a scene's key; refuses a path that is none.
+  const Key* key_of(const Checked& path) {
+    const Key* key = path.sound ? scene_key(path.text) : nullptr;
+    if (path.sound && key == nullptr) {
+      std::vector<std::string> known;
+      for (const Key& candidate : scene_keys().keys()) known.push_back(candidate.path);
+      const auto close = nearest(path.text, known);
+      refuse(path, "must be the path of a key of the scene",
+             close ? fmt::format("Did you mean {}?", *close) : "`scree keys` lists them all");
+    }
+    return key;
+  }
+
+  Factor factor(const Checked& varied) {
+    Factor factor;
+    factor.where = varied.where;
+    factor.keys.push_back(varied.at("key").text);
+    const Key* key = key_of(varied.at("key"));
+    for (const Checked& other : varied.at("also").items) {
+      key_of(other);
+      factor.keys.push_back(other.text);
+    }
+    if (const Checked* values = varied.find("values")) {
+      for (const Checked& value : values->items) factor.levels.push_back(level(value, key));
+    }
+    const Checked* range = varied.find("range");
+    if (range != nullptr && key != nullptr) read_range(*range, *key, factor);
+    return factor;
+  }
+
+  Level level(const Checked& value, const Key* key) {
+    Level level{value.text, std::nullopt, value.where};
+    if (key == nullptr) return level;
+    if (key->type == KeyType::path) level.text = in_folder(value.text).string();
+    if (key->type == KeyType::quantity || key->type == KeyType::integer) {
+      const auto parsed = parse_quantity(value.text, key->quantity);
+      if (const auto* number = std::get_if<double>(&parsed)) level.number = *number;
+    }
+    return level;
+  }
+
+  double end_of(const Checked& end, const Key& key) {
+    const auto parsed = parse_quantity(end.text, key.quantity);
+    if (const auto* problem = std::get_if<UnitProblem>(&parsed)) {
+      if (end.sound) refuse(end, fmt::format("{}; {}", rule_words(key, 0), problem->reason), problem->suggestion);
+      return 0;
+    }
+    return std::get<double>(parsed);
+  }
+
+  void read_range(const Checked& range, const Key& key, Factor& factor) {
+    const std::size_t before = problems_.size();
+    if (key.type != KeyType::quantity && key.type != KeyType::integer) {
+      problems_.push_back(range.problem("a range", "must be values, for the key is no number"));
+      return;
+    }
+    const Checked& from = range.at("from");
+    const Checked& to = range.at("to");
+    const bool logarithmic = range.at("spacing").text == "log";
+    Interval interval{end_of(from, key), end_of(to, key), logarithmic, key.type == KeyType::integer,
+                      std::string(key.quantity.unit)};
+    if (problems_.size() > before || !from.sound || !to.sound) return;
+    if (!(interval.low < interval.high)) refuse(to, fmt::format("must be above range.from, {}", from.text));
+    if (logarithmic && !(interval.low > 0)) refuse(from, "must be positive where the spacing is log");
+    if (problems_.size() > before) return;
+    const int points = range.at("points").integer();
+    for (int i = 0; i < points; ++i) factor.levels.push_back(interval.at(i / std::max(1.0, points - 1.0), range.where));
+    factor.interval = interval;
+  }
+
+  Factor members(const Checked& ensemble) {
+    Factor factor;
+    factor.where = ensemble.where;
+    factor.keys.push_back(ensemble.at("key").text);
+    const Key* key = key_of(ensemble.at("key"));
+    if (key != nullptr && key->type != KeyType::integer) {
+      refuse(ensemble.at("key"), "must be a key that takes integers, such as settle.seed or bodies.NAME.random.seed");
+    }
+    const int first = ensemble.at("first").integer();
+    for (int i = 0; i < ensemble.at("members").integer(); ++i) {
+      factor.levels.push_back({fmt::format("{}", first + i), static_cast<double>(first + i), ensemble.where});
+    }
+    return factor;
+  }
+
+  static Report column(const Checked& item) {
+    Report report;
+    report.where = item.where;
+    if (!item.is_map) {
+      report.column = report.path = item.text;
+      return report;
+    }
+    report.column = item.at("column").text;
+    report.path = item.at("path").text;
+    report.probe = item.at("probe").text;
+    report.reaches = item.at("reaches").number();
+    return report;
+  }
+
+  void check_whole(const Study& study, const Checked& root) {
+    if (study.factors.empty() && !study.ensemble) {
+      problems_.push_back(root.problem("without anything that varies", "must have vary, ensemble, or both"));
+    }
+    if (study.hypercube && study.factors.empty()) {
+      problems_.push_back(root.at("latin_hypercube").problem("without use", "of use only with vary", "Take it out"));
+    }
+    std::set<std::string> names{"run",    "point",        "directory",         "status",
+                                "reason", "wall_seconds", "peak_memory_bytes", "columns"};
+    const auto add = [&](const std::string& name, const SourceLocation& where) {
+      if (!names.insert(name).second) {
+        problems_.push_back({where, "a column", name, "every column must have a name of its own", "Take one out"});
+      }
+    };
+    for (const Factor& factor : study.factors) {
+      for (const std::string& key : factor.keys) add(key, factor.where);
+    }
+    if (study.ensemble) add(study.ensemble->name(), study.ensemble->where);
+    for (const Report& report : study.reports) {
+      add(report.column, report.where);
+      if (report.column.find('/') == std::string::npos) continue;
+      problems_.push_back({report.where, "a column", report.column, "a name must not hold a slash", ""});
+    }
+  }
+
+  fs::path file_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Study read_study(const fs::path& file) {
+  Problems problems;
+  const Checked root = check_input(read_yaml(file), study_keys(), 3, problems);
+  Study study = Reader(file, problems).read(root);
+  if (problems.empty()) return study;
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+  });
+  throw InputError(std::move(problems));
+}
+
+}  // namespace scree::study

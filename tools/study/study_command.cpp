@@ -1,0 +1,161 @@
+#include "tools/study/study_command.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+#include "engine/base/progress.h"
+#include "engine/base/threads.h"
+#include "tools/run/interrupt.h"
+#include "tools/study/batch.h"
+#include "tools/study/conductor.h"
+#include "tools/study/ensembles.h"
+#include "tools/study/gather.h"
+#include "tools/study/memory.h"
+#include "tools/study/read_study.h"
+
+namespace scree::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<int> given(int option) {
+  return option > 0 ? std::optional<int>(option) : std::nullopt;
+}
+
+Table write_tables(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
+  Table table = gather(study, runs, files);
+  write_text(files.table(), to_csv(table));
+  write_hdf5(table, files.table_hdf5());
+  if (study.ensemble) {
+    const Table ensembles = ensembles_of(study, table);
+    write_text(files.ensembles(), to_csv(ensembles));
+    write_hdf5(ensembles, files.ensembles_hdf5());
+  }
+  return table;
+}
+
+// Exit status 0 only if all runs are complete and all their figures are there.
+int conclude(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files, bool quiet) {
+  const Table table = write_tables(study, runs, files);
+  const Standing standing = standing_of(table);
+  const std::vector<std::string> missing = paths_not_found(study, runs, files);
+  for (const std::string& sentence : missing) fmt::print(stderr, "{}\n", sentence);
+  if (!quiet) {
+    fmt::print("{} of {} runs complete, {} failed or unsound, {} not made: {}\n", standing.complete, runs.size(),
+               standing.unsound, standing.open, files.table().string());
+  }
+  return standing.complete == runs.size() && missing.empty() ? 0 : 1;
+}
+
+FileLock lock_of(const StudyFiles& files, FileLock::Kind kind) {
+  auto lock = FileLock::take(files.lock(), kind, FileLock::Heirs::children);
+  if (!lock) {
+    throw RunError(fmt::format("{}: another `scree study`, or a run that one has left behind, is at work there. Wait for it",
+                               files.directory.string()));
+  }
+  return std::move(*lock);
+}
+
+int make_all(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
+  const FileLock lock = lock_of(files, FileLock::Kind::exclusive);
+  Progress progress(progress_mode(arguments.quiet));
+  progress.start("study", fmt::format("{} runs", runs.size()));
+  Means means;
+  means.jobs = given(arguments.jobs).value_or(available_processors());
+  means.threads = given(arguments.threads);
+  means.memory = available_memory();
+  Conductor conductor(study, files, means, progress, [&] { write_tables(study, runs, files); });
+  conductor.make(runs);
+  progress.finish("");
+  return conclude(study, runs, files, arguments.quiet);
+}
+
+int make_one(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
+  if (arguments.task > static_cast<int>(runs.size())) {
+    Problem problem;
+    problem.key = "--task";
+    problem.value = fmt::format("{}", arguments.task);
+    problem.rule = fmt::format("must be at most {}, the number of runs", runs.size());
+    throw InputError(problem);
+  }
+  const FileLock lock = lock_of(files, FileLock::Kind::shared);
+  Progress progress(progress_mode(arguments.quiet));
+  progress.start("study", fmt::format("run {}", arguments.task));
+  const Means means{1, given(arguments.threads), available_memory()};
+  const PlannedRun& one = runs[static_cast<std::size_t>(arguments.task) - 1];
+  Conductor(study, files, means, progress, [] {}).make({one});
+  progress.finish("");
+  const Table row = gather(study, {one}, files);
+  return standing_of(row).complete == 1 ? 0 : 1;
+}
+
+void write_script(const std::string& file, const std::string& script) {
+  write_text(file, script);
+  fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+}
+
+int list(const std::vector<PlannedRun>& runs) {
+  for (const PlannedRun& run : runs) {
+    fmt::print("{:>4}", run.number);
+    for (const std::string& assignment : run.overrides) fmt::print("  {}", assignment);
+    fmt::print("\n");
+  }
+  return 0;
+}
+
+fs::path directory_of(const Arguments& arguments) {
+  return arguments.directory.empty() ? fs::path("out") / fs::path(arguments.study).stem() : fs::path(arguments.directory);
+}
+
+int dispatch(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
+  if (arguments.gather) return conclude(study, runs, files, arguments.quiet);
+  const Batch batch{arguments.study, files.directory, static_cast<int>(runs.size()), given(arguments.threads)};
+  if (!arguments.slurm.empty()) write_script(arguments.slurm, slurm_script(batch));
+  if (!arguments.parallel.empty()) write_script(arguments.parallel, parallel_script(batch));
+  if (!arguments.slurm.empty() || !arguments.parallel.empty()) return 0;
+  return arguments.task > 0 ? make_one(arguments, study, runs, files) : make_all(arguments, study, runs, files);
+}
+
+}  // namespace
+
+void declare(CLI::App& command, Arguments& arguments) {
+  command.add_option("study", arguments.study, "the study, a YAML file")->required();
+  command.add_option("--out", arguments.directory, "where the results go (default: out/ and the study's name)");
+  command.add_option("--jobs", arguments.jobs, "runs side by side (default: the processors there are)")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--threads", arguments.threads, "of each run (default: the processors shared out)")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+  auto* what = command.add_option_group("instead of making all runs here");
+  what->add_option("--task", arguments.task, "make only the run of this number, counted from 1")->check(CLI::PositiveNumber);
+  what->add_flag("--gather", arguments.gather, "make no run, only the table of those that there are");
+  what->add_flag("--list", arguments.list, "make no run, only say what they are");
+  what->add_option("--slurm", arguments.slurm, "write a job array for Slurm whose tasks are the runs");
+  what->add_option("--parallel", arguments.parallel, "write a script that makes the runs by GNU parallel");
+  what->require_option(0, 1);
+}
+
+int run(const Arguments& arguments) {
+  const Study study = read_study(arguments.study);
+  const std::vector<PlannedRun> runs = plan(study);
+  if (arguments.list) return list(runs);
+  const StudyFiles files{directory_of(arguments)};
+  std::error_code error;
+  for (const char* folder : {"runs", "packings"}) fs::create_directories(files.directory / folder, error);
+  if (error) {
+    throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
+  }
+  run::catch_interrupts();
+  try {
+    return dispatch(arguments, study, runs, files);
+  } catch (const run::Interrupted&) {
+    fmt::print(stderr, "scree: interrupted; the same command goes on\n");
+    return 130;
+  }
+}
+
+}  // namespace scree::study

@@ -1,0 +1,86 @@
+#include "tools/study/table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/atomic_file.h"
+#include "engine/base/check.h"
+#include "engine/packing/hdf5_image.h"
+
+namespace scree::study {
+
+namespace {
+
+std::string quoted(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  std::string text = "\"";
+  for (const char c : cell) {
+    if (c == '"') text += '"';
+    text += c;
+  }
+  return text + '"';
+}
+
+std::string line(const Table& table, auto cell_of) {
+  std::string text;
+  for (const Column& column : table.columns) text += quoted(cell_of(column)) + ',';
+  text.back() = '\n';
+  return text;
+}
+
+}  // namespace
+
+std::string Column::cell(std::size_t row) const {
+  if (is_text) return texts[row];
+  return std::isnan(numbers[row]) ? std::string() : fmt::format("{}", numbers[row]);
+}
+
+const Column* Table::find(const std::string& name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+std::string to_csv(const Table& table) {
+  std::string csv = line(table, [](const Column& column) { return column.name; });
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    csv += line(table, [&](const Column& column) { return column.cell(row); });
+  }
+  return csv;
+}
+
+void write_hdf5(const Table& table, const std::filesystem::path& file) {
+  packing::Hdf5Image image;
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) {
+    names.push_back(column.name);
+    column.is_text ? image.put(column.name, column.texts) : image.put(column.name, column.numbers);
+  }
+  image.put("columns", names);
+  write_text(file, image.bytes());
+}
+
+Table read_table(const std::filesystem::path& file) {
+  H5::Exception::dontPrint();
+  try {
+    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    Table table;
+    for (const std::string& name : packing::texts(in, "columns")) {
+      Column column{name};
+      column.is_text = in.openDataSet(name).getTypeClass() == H5T_STRING;
+      column.is_text ? void(column.texts = packing::texts(in, name)) : void(column.numbers = packing::doubles(in, name));
+      table.columns.push_back(std::move(column));
+    }
+    return table;
+  } catch (const H5::Exception&) {
+    Problem problem;
+    problem.key = "the table";
+    problem.value = file.string();
+    problem.rule = "must be the table of a study";
+    problem.suggestion = "`scree study STUDY` and `scree study STUDY --gather` write it";
+    throw InputError(problem);
+  }
+}
+
+}  // namespace scree::study
