@@ -215,6 +215,18 @@ TEST(StudyCommand, WaitsForRunsThatAKilledStudyHasLeftBehind) {
   EXPECT_EQ(status, 0);
 }
 
+TEST(StudyCommand, WritesAScriptForGnuParallelThatMakesAndGathersItsRuns) {
+  if (std::system("command -v parallel > /dev/null") != 0)
+    GTEST_SKIP() << "GNU parallel is not there: apt-get install parallel";
+  const OneStudy study(two_by_two);
+  const std::string script = (study.file.parent_path() / "runs.sh").string();
+  ASSERT_EQ(study.run("--parallel " + script).status, 0);
+  const Ended ended = shell(script + " --jobs 2", study.file.parent_path());
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("4 of 4 runs complete"));
+  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+}
+
 TEST(StudyCommand, DrawsItsTable) {
   const OneStudy study(two_by_two);
   ASSERT_EQ(study.run().status, 0);
