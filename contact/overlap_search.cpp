@@ -100,6 +100,7 @@ std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const Co
 
 template <int dim>
 std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance) {
+  if (mesh.blocks.size() < 2) return {};
   const Surface<dim> surface = make_surface(mesh);
   const auto body_of = [&](FaceId face) { return mesh.blocks[surface.faces[face].block].body; };
   std::map<std::pair<BodyId, BodyId>, double> areas;

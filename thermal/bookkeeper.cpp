@@ -16,7 +16,7 @@ void enter(const std::vector<double>& heat, std::vector<double>& entries, double
 
 }  // namespace
 
-Bookkeeper::Bookkeeper(const HeatModel& model) : model_(model), drives_(model), balance_(model) {}
+Bookkeeper::Bookkeeper(const HeatModel& model, Sums sums) : model_(model), drives_(model), balance_(model, sums) {}
 
 Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   Ledger ledger;

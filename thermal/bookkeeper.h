@@ -9,7 +9,7 @@ namespace scree::thermal {
 
 class Bookkeeper {
  public:
-  explicit Bookkeeper(const HeatModel& model);  // refers to it
+  explicit Bookkeeper(const HeatModel& model, Sums sums = Sums::extended);  // refers to it
 
   // A ledger in which nothing has flowed but what brings the fixed nodes to `temperature` at the start.
   [[nodiscard]] Ledger open(const Eigen::VectorXd& temperature) const;

@@ -2,25 +2,28 @@
 
 namespace scree::thermal {
 
-FlowNetwork::FlowNetwork(const SparseMatrix& conductance) : size_(conductance.rows()) {
-  links_.reserve(static_cast<std::size_t>(conductance.nonZeros()) / 2);
-  for (int column = 0; column < conductance.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator entry(conductance, column); entry; ++entry) {
-      if (entry.row() > column) links_.push_back({static_cast<int>(entry.row()), column, -entry.value()});
+namespace {
+
+// Columns are rows: the matrix is symmetric.
+template <class Sum>
+Eigen::VectorXd summed(const SparseMatrix& matrix, const Eigen::VectorXd& temperature) {
+  Eigen::VectorXd heat(temperature.size());
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index row = 0; row < heat.size(); ++row) {
+    Sum sum = 0;
+    for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+      sum += entry.value() * (temperature[entry.row()] - temperature[row]);
     }
+    heat[row] = static_cast<double>(sum);
   }
+  return heat;
 }
 
+}  // namespace
+
 Eigen::VectorXd FlowNetwork::leaving(const Eigen::VectorXd& temperature) const {
-  std::vector<long double> heat(static_cast<std::size_t>(size_), 0);
-  for (const Link& link : links_) {
-    const double flow = link.conductance * (temperature[link.first] - temperature[link.second]);
-    heat[link.first] += flow;
-    heat[link.second] -= flow;
-  }
-  Eigen::VectorXd rounded(size_);
-  for (Eigen::Index i = 0; i < size_; ++i) rounded[i] = static_cast<double>(heat[i]);
-  return rounded;
+  if (empty()) return Eigen::VectorXd::Zero(temperature.size());
+  return sums_ == Sums::plain ? summed<double>(*conductance_, temperature) : summed<long double>(*conductance_, temperature);
 }
 
 }  // namespace scree::thermal

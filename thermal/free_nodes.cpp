@@ -24,22 +24,30 @@ Eigen::MatrixXd FreeNodes::scatter(const Eigen::MatrixXd& free) const {
 }
 
 SparseMatrix FreeNodes::block(const SparseMatrix& matrix) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) + nodes_.size());
-  for (Eigen::Index column = 0; column < size(); ++column) {
-    entries.emplace_back(static_cast<int>(column), static_cast<int>(column), 0.0);
-    for (SparseMatrix::InnerIterator entry(matrix, nodes_[column]); entry; ++entry) {
-      const Eigen::Index row = unknowns_[entry.row()];
-      if (row >= 0) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), entry.value());
-    }
-  }
-  SparseMatrix block(size(), size());
-  block.setFromTriplets(entries.begin(), entries.end());
-  return block;
+  return part(matrix, false);
 }
 
 SparseMatrix FreeNodes::lower_block(const SparseMatrix& matrix) const {
-  return block(matrix).triangularView<Eigen::Lower>();
+  return part(matrix, true);
+}
+
+SparseMatrix FreeNodes::part(const SparseMatrix& matrix, bool lower) const {
+  SparseMatrix part(size(), size());
+  part.reserve(lower ? (matrix.nonZeros() + matrix.rows()) / 2 + size() : matrix.nonZeros() + size());
+  for (Eigen::Index column = 0; column < size(); ++column) {
+    part.startVec(column);
+    bool diagonal = false;  // whether it has been entered
+    for (SparseMatrix::InnerIterator entry(matrix, nodes_[column]); entry; ++entry) {
+      const Eigen::Index row = unknowns_[entry.row()];
+      if (row < 0 || (lower && row < column)) continue;
+      if (!diagonal && row > column) part.insertBack(column, column) = 0;
+      diagonal = diagonal || row >= column;
+      part.insertBack(row, column) = entry.value();
+    }
+    if (!diagonal) part.insertBack(column, column) = 0;
+  }
+  part.finalize();
+  return part;
 }
 
 }  // namespace scree::thermal

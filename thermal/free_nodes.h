@@ -21,6 +21,8 @@ class FreeNodes {
   [[nodiscard]] SparseMatrix lower_block(const SparseMatrix& matrix) const;
 
  private:
+  [[nodiscard]] SparseMatrix part(const SparseMatrix& matrix, bool lower) const;
+
   std::vector<Eigen::Index> nodes_;     // of each unknown, ascending
   std::vector<Eigen::Index> unknowns_;  // of each node, -1 for a fixed one
 };

@@ -27,14 +27,12 @@ Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, c
   return result;
 }
 
-SparseMatrix unit_conductance(const HeatModel& model) {
-  return model.varying ? model.varying->unit_conductance : SparseMatrix();
-}
-
 }  // namespace
 
-HeatBalance::HeatBalance(const HeatModel& model)
-    : model_(model), flows_(model.conductance), unit_flows_(unit_conductance(model)) {}
+HeatBalance::HeatBalance(const HeatModel& model, Sums sums)
+    : model_(model),
+      flows_(&model.conductance, sums),
+      unit_flows_(model.varying ? &model.varying->unit_conductance : nullptr, sums) {}
 
 Eigen::VectorXd HeatBalance::heating(const Eigen::VectorXd& temperature, const Drive& drive) const {
   Eigen::VectorXd heat = drive.load - flows_.leaving(temperature);

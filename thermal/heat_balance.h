@@ -22,7 +22,7 @@ struct Linearised {
 
 class HeatBalance {
  public:
-  explicit HeatBalance(const HeatModel& model);  // refers to it
+  explicit HeatBalance(const HeatModel& model, Sums sums = Sums::extended);  // refers to it
 
   // F: heat into each node, from its neighbours and from outside [W].
   [[nodiscard]] Eigen::VectorXd heating(const Eigen::VectorXd& temperature, const Drive& drive) const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/mesh/cells.h"
+#include "thermal/assemble_blocks.h"
 #include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
 #include "thermal/joint_conduction.h"
@@ -14,8 +15,6 @@
 namespace scree::thermal {
 
 namespace {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
 
 template <int dim>
 const Material& material_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block) {
@@ -115,34 +114,14 @@ void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mater
   }
 }
 
-struct Entries {
-  Triplets conductance;       // [W/K]
-  Triplets unit_conductance;  // [m]
-};
-
-// Eqs. (4), (5) and (7) of every simplex, by its weight.
+// What joints add to K.
 template <int dim>
-void add_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model,
-                Entries& entries) {
-  for (const BlockId b : mesh.blocks.ids()) {
-    const Material& material = material_of(mesh, materials, b);
-    const double value = material.conductivity->value.constant().value_or(1);
-    const Tensor<dim> conductivity = value * conductivity_ratios<dim>(*material.conductivity, mesh.blocks[b]);
-    Triplets& list = varies(*material.conductivity) ? entries.unit_conductance : entries.conductance;
-    mesh::for_each_simplex(mesh, mesh.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
-      const CornerMatrix<dim> conductance = weight * element_conductance<dim>(corner_points<dim>(mesh, nodes), conductivity);
-      const double mass = weight * corner_mass<dim>(mesh::simplex_volume<dim>(mesh, nodes), *material.density);
-      for (int i = 0; i <= dim; ++i) {
-        const auto node = nodes[i].value();
-        model.capacity[node] += mass * (*material.specific_heat)(model.initial[node]);
-        if (model.varying) model.varying->mass[node] += mass;
-        for (int j = 0; j <= dim; ++j) list.emplace_back(node, nodes[j].value(), conductance(i, j));
-      }
-    });
-  }
-}
-
-SparseMatrix matrix_of(const Triplets& entries, Eigen::Index size) {
+SparseMatrix joint_matrix(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                          const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(contacts.contacts.size() * 4 * dim * dim);
+  add_joints(contacts, joint_conduction(mesh, materials, contacts, joint), joint.form, entries);
+  const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
   SparseMatrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -155,6 +134,7 @@ class BlockFlux {
   BlockFlux(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block)
       : mesh_(mesh),
         value_(material_of(mesh, materials, block).conductivity->value),
+        constant_(value_.constant()),
         tensor_(value_.constant().value_or(1) *
                 conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block])) {}
 
@@ -162,7 +142,7 @@ class BlockFlux {
     CornerValues<dim> corner;  // Kirchhoff's Phi where the conductivity depends on temperature (heat_balance.h)
     for (int i = 0; i <= dim; ++i) {
       const double at = temperature[nodes[i].value()];
-      corner[i] = value_.constant() ? at : value_.integral(at);
+      corner[i] = constant_ ? at : value_.integral(at);
     }
     return element_flux<dim>(corner_points<dim>(mesh_, nodes), tensor_, corner);
   }
@@ -182,6 +162,7 @@ class BlockFlux {
  private:
   const mesh::BlockMesh<dim>& mesh_;
   Curve value_;
+  bool constant_;
   Tensor<dim> tensor_;
 };
 
@@ -212,27 +193,22 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_initial(mesh, options, model);
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
-  Entries entries;
-  entries.conductance.reserve(mesh.elements.size() * (dim + 1) * (dim + 1) + contacts.contacts.size() * 4 * dim * dim);
-  add_blocks(mesh, materials, model, entries);
-  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, entries.conductance);
-  model.conductance = matrix_of(entries.conductance, size);
-  if (!entries.unit_conductance.empty()) model.varying->unit_conductance = matrix_of(entries.unit_conductance, size);
+  model.conductance = assemble_blocks(mesh, materials, model);
+  if (!contacts.contacts.empty()) model.conductance += joint_matrix(mesh, materials, contacts, options.joint);
   return model;
 }
 
 template <int dim>
 std::vector<Point<dim>> cell_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                                     const Eigen::VectorXd& temperature) {
-  const std::vector<Point<dim>> of_elements = element_fluxes(mesh, materials, temperature);
-  if (mesh.cells.empty()) return of_elements;
+  if (mesh.cells.empty()) return element_fluxes(mesh, materials, temperature);
   std::vector<Point<dim>> fluxes;
   for (const BlockId b : mesh.blocks.ids()) {
     const mesh::Block& block = mesh.blocks[b];
     const BlockFlux<dim> flux(mesh, materials, b);
     for (const CellId cell : block.cells) fluxes.push_back(flux.in(cell, temperature));
     if (block.cells.size() > 0) continue;
-    for (const ElementId e : block.elements) fluxes.push_back(of_elements[e.index()]);
+    for (const ElementId e : block.elements) fluxes.push_back(flux.in(mesh.elements[e], temperature));
   }
   return fluxes;
 }

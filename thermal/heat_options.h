@@ -62,8 +62,10 @@ struct Source {
 };
 
 enum class Integrator {
-  implicit,        // L-stable, second order, steps from the tolerance
-  explicit_euler,  // eq. (8)
+  automatic,            // stabilised explicit or implicit, whichever costs less
+  implicit,             // L-stable, second order, steps from the tolerance
+  stabilised_explicit,  // second order, steps from the tolerance
+  explicit_euler,       // eq. (8)
 };
 
 struct TimeOptions {
@@ -71,7 +73,7 @@ struct TimeOptions {
   double until = 0;         // [s]
   double tolerance = 0.1;   // largest accepted time error [K]
   double output_every = 0;  // [s]; states are exact at its multiples
-  Integrator integrator = Integrator::implicit;
+  Integrator integrator = Integrator::automatic;
   std::optional<double> step;  // explicit only; nothing: the largest stable one
 };
 

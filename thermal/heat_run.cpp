@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "thermal/bookkeeper.h"
+#include "thermal/choose_scheme.h"
 #include "thermal/problems.h"
 #include "thermal/step_grid.h"
 
@@ -57,12 +58,8 @@ class HeatRun::Implementation {
   Implementation(const HeatModel& model, const TimeOptions& options)
       : model_(model), options_(options), bookkeeper_(model_), drives_(model_) {
     check_options(options);
-    if (options.integrator == Integrator::implicit) {
-      scheme_ = make_implicit_scheme(model_);
-    } else {
-      scheme_ = make_explicit_scheme(model_);
-      explicit_step_ = explicit_step(model_, options);
-    }
+    scheme_ = choose_scheme(model_, options);
+    if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
     state_.temperature = held(model_, model_.initial, drives_.at(0));
     state_.error = Eigen::VectorXd::Zero(model_.initial.size());
     state_.ledger = bookkeeper_.open(state_.temperature);
@@ -93,27 +90,27 @@ class HeatRun::Implementation {
       const double end = whole ? next : target;
       // A whole interval has the same length each time, not that of a difference of rounded times.
       const double length = at_output && whole ? every : end - begin;
-      if (options_.integrator == Integrator::implicit) {
-        implicit_interval(begin, length, progress);
+      if (options_.integrator == Integrator::explicit_euler) {
+        fixed_steps(begin, length, progress);
       } else {
-        explicit_interval(begin, length, progress);
+        chosen_steps(begin, length, progress);
       }
       state_.time = std::abs(end - target) <= on_grid * every ? target : end;
     }
   }
 
   [[nodiscard]] const HeatState& state() const { return state_; }
-  [[nodiscard]] std::string solver() const { return scheme_->name(); }
+  [[nodiscard]] std::string solver() const { return fmt::format("{} ({})", scheme_.scheme->name(), scheme_.why); }
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
  private:
-  void implicit_interval(double begin, double length, const std::function<void(double)>& progress) {
-    if (state_.next_step <= 0) state_.next_step = scheme_->first_step(instant(begin), allowed(state_.error));
+  void chosen_steps(double begin, double length, const std::function<void(double)>& progress) {
+    if (state_.next_step <= 0) state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error));
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
       const double dt = grid.step();
-      const Step step = scheme_->step(instant(grid.time()), dt);
-      state_.factorisations = earlier_factorisations_ + scheme_->factorisations();
+      const Step step = scheme_.scheme->step(instant(grid.time()), dt);
+      state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
       if (!(step.local_error <= allowed(state_.error))) {
         refine(grid, step.local_error / allowed(state_.error));
         continue;
@@ -145,18 +142,18 @@ class HeatRun::Implementation {
     }
   }
 
-  void explicit_interval(double begin, double length, const std::function<void(double)>& progress) {
+  void fixed_steps(double begin, double length, const std::function<void(double)>& progress) {
     const auto count = static_cast<std::int64_t>(std::max(1.0, std::ceil(length / explicit_step_)));
     const double dt = length / static_cast<double>(count);
     for (std::int64_t i = 1; i <= count; ++i) {
-      const Step step = scheme_->step(instant(begin + static_cast<double>(i - 1) * dt), dt);
+      const Step step = scheme_.scheme->step(instant(begin + static_cast<double>(i - 1) * dt), dt);
       accept(step, dt, begin + static_cast<double>(i) * dt, progress);
     }
   }
 
   // How much error a step may add [K].
   [[nodiscard]] double allowed(const Eigen::VectorXd& error) const {
-    const double room = aim * options_.tolerance / scheme_->safety() - error.lpNorm<Eigen::Infinity>();
+    const double room = aim * options_.tolerance / scheme_.scheme->safety() - error.lpNorm<Eigen::Infinity>();
     return share_of_room * std::max(room, least_room * options_.tolerance);
   }
 
@@ -177,7 +174,7 @@ class HeatRun::Implementation {
           fmt::format("The temperatures are not finite after {:g} s. Look for huge loads or almost empty blocks", time));
     }
     state_.time = time;
-    state_.time_error = std::max(state_.time_error, scheme_->safety() * state_.error.lpNorm<Eigen::Infinity>());
+    state_.time_error = std::max(state_.time_error, scheme_.scheme->safety() * state_.error.lpNorm<Eigen::Infinity>());
     ++state_.steps;
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
@@ -190,8 +187,8 @@ class HeatRun::Implementation {
   TimeOptions options_;
   Bookkeeper bookkeeper_;
   Drives drives_;
-  std::unique_ptr<TimeScheme> scheme_;  // refers to model_
-  double explicit_step_ = 0;            // [s]
+  ChosenScheme scheme_;       // refers to model_
+  double explicit_step_ = 0;  // [s]
   HeatState state_;
   std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from
 };

@@ -24,6 +24,7 @@ void use_one_blas_thread() {
 
 struct HeatSolver::Factor {
   virtual ~Factor() = default;
+  virtual FactorSize analyse(const SparseMatrix& matrix) = 0;
   virtual void factorise(const SparseMatrix& matrix) = 0;
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   [[nodiscard]] virtual bool sound() const = 0;
@@ -36,9 +37,13 @@ struct HeatSolver::Factor {
 struct HeatSolver::Factor::Cholesky : Factor {
   Cholesky() { cholesky.cholmod().print = 0; }  // failures are ours to report
   void factorise(const SparseMatrix& matrix) override {
-    if (!analysed) cholesky.analyzePattern(matrix);
-    analysed = true;
+    if (!analysed) analyse(matrix);
     cholesky.factorize(matrix);
+  }
+  FactorSize analyse(const SparseMatrix& matrix) override {
+    cholesky.analyzePattern(matrix);
+    analysed = true;
+    return {cholesky.cholmod().lnz, cholesky.cholmod().fl};
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return cholesky.solve(rhs); }
   [[nodiscard]] bool sound() const override { return cholesky.info() == Eigen::Success; }
@@ -48,9 +53,13 @@ struct HeatSolver::Factor::Cholesky : Factor {
 struct HeatSolver::Factor::Lu : Factor {
   void factorise(const SparseMatrix& matrix) override {
     kept = matrix;  // the library reads it again when it solves
-    if (!analysed) lu.analyzePattern(kept);
-    analysed = true;
+    if (!analysed) analyse(kept);
     lu.factorize(kept);
+  }
+  FactorSize analyse(const SparseMatrix& matrix) override {
+    lu.analyzePattern(matrix);
+    analysed = true;
+    return {};  // known only after the factorisation
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return lu.solve(rhs); }
   [[nodiscard]] bool sound() const override { return lu.info() == Eigen::Success; }
@@ -81,15 +90,24 @@ void HeatSolver::prepare_steady(const Linearised& at) {
   factorise(free_.gather(at.loss), at, 1);
 }
 
-void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) {
-  if (free_.size() == 0) return;
+FactorSize HeatSolver::analyse(const Linearised& at) {
+  if (free_.size() == 0) return {};
+  return factor_->analyse(matrix_of(free_.gather(at.capacity), at, 1));
+}
+
+SparseMatrix HeatSolver::matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const {
   SparseMatrix matrix = scale * conductance_;
   if (unit_conductance_.nonZeros() > 0) {
     const Eigen::VectorXd conductivity = scale * free_.gather(at.conductivity);
     matrix += unit_conductance_ * conductivity.asDiagonal();
   }
   matrix.diagonal() += diagonal;
-  factor_->factorise(matrix);
+  return matrix;
+}
+
+void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) {
+  if (free_.size() == 0) return;
+  factor_->factorise(matrix_of(diagonal, at, scale));
   ++factorisations_;
   if (factor_->sound()) return;
   throw RunError(

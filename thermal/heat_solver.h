@@ -10,6 +10,7 @@
 
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
+#include "thermal/time_scheme.h"
 
 namespace scree::thermal {
 
@@ -20,6 +21,9 @@ class HeatSolver {
 
   // Factorises C + scale J [J/K]; scale in seconds. Throws RunError if that cannot be done.
   void prepare(const Linearised& at, double scale);
+
+  // Finds out what a factorisation will cost; the symbolic part of it, which prepare() then has no more to do. Symmetric J.
+  FactorSize analyse(const Linearised& at);
 
   // Factorises J alone [W/K].
   void prepare_steady(const Linearised& at);
@@ -32,6 +36,7 @@ class HeatSolver {
 
  private:
   struct Factor;  // keeps the libraries out of this header
+  [[nodiscard]] SparseMatrix matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const;
   void factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale);
 
   const FreeNodes& free_;

@@ -86,6 +86,7 @@ class LinearScheme : public TimeScheme {
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
+  FactorSize factor_size() override { return solver_.analyse(linear_); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {
     return "SDIRK2 (L-stable, second order) with steps from the tolerance; " + solver_.name();

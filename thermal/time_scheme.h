@@ -32,6 +32,11 @@ struct Step {
   double local_error = 0;  // largest entry of this step's own contribution to the error [K]
 };
 
+struct FactorSize {
+  double entries = 0;
+  double flops = 0;
+};
+
 // A one-step scheme with its estimate of the global error. Beside the temperatures T a scheme follows, in exact arithmetic, a
 // second solution V of one order more; error = T - V. Kept as the difference, that is: the error is carried by the scheme's
 // own (linearised) operator, and each step adds the difference between the two schemes applied to V.
@@ -48,6 +53,8 @@ class TimeScheme {
   // What the estimated error is multiplied with so as to bound the true one.
   [[nodiscard]] virtual double safety() const = 0;
   [[nodiscard]] virtual std::int64_t factorisations() const { return 0; }
+  // Of one factorisation; nothing for a scheme without.
+  virtual FactorSize factor_size() { return {}; }
   [[nodiscard]] virtual std::string name() const = 0;
 
  protected:
@@ -60,7 +67,13 @@ class TimeScheme {
 std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model);
 std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model);
 std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model);
-// Throws InputError for a model that it cannot do.
+// These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
+std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model);
+
+bool can_be_stabilised(const HeatModel& model);
+
+// How many products with K a run of stabilised steps will take, about.
+double stabilised_products(const HeatModel& model, const TimeOptions& options);
 
 }  // namespace scree::thermal

@@ -7,7 +7,7 @@ namespace scree {
 // The processors this process may run on.
 [[nodiscard]] int available_processors();
 
-// At least one. From here on, for the whole process.
+// At least one. From here on, for loops that the calling thread starts.
 void use_threads(int count);
 
 [[nodiscard]] int threads_in_use();

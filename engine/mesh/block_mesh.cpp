@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace scree::mesh {
@@ -19,36 +20,70 @@ std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element
   }
 }
 
-// A face of an element, by its nodes in ascending order, and its place among all faces of its block.
+// A face of an element among those with the same least node: its other nodes in ascending order, and its place among all faces
+// of its block.
 template <int dim>
 struct FaceUse {
-  std::array<NodeId, dim> key;
+  std::array<NodeId, dim - 1> key;
   std::uint32_t place;
 
   friend auto operator<=>(const FaceUse&, const FaceUse&) = default;
 };
 
-// Sorting a block's faces by their nodes puts the two uses of an inner face side by side; what stands alone is boundary.
+// The faces of a block by their least node: a list to go through in linear time, whatever the block's size.
 template <int dim>
-void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, std::vector<FaceUse<dim>>& uses,
-                     Table<FaceId, Face<dim>>& faces) {
-  const auto elements = mesh.blocks[block].elements;
-  uses.clear();
-  for (std::size_t place = 0; place < elements.size() * (dim + 1); ++place) {
-    auto nodes = opposite_face<dim>(mesh.elements[elements[place / (dim + 1)]], static_cast<int>(place % (dim + 1)));
+class FacesByNode {
+ public:
+  FacesByNode(const BlockMesh<dim>& mesh, const Block& block)
+      : first_(block.nodes.size() == 0 ? 0 : (*block.nodes.begin()).index()), begin_(block.nodes.size() + 1) {
+    const std::size_t places = block.elements.size() * (dim + 1);
+    for (std::size_t place = 0; place < places; ++place) ++begin_[least(sorted_face(mesh, block, place)) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    uses_.resize(places);
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t place = 0; place < places; ++place) {
+      const auto nodes = sorted_face(mesh, block, place);
+      FaceUse<dim>& use = uses_[next[least(nodes)]++];
+      std::copy(nodes.begin() + 1, nodes.end(), use.key.begin());
+      use.place = static_cast<std::uint32_t>(place);
+    }
+  }
+
+  // The places of the faces that stand alone, ascending.
+  std::vector<std::uint32_t> boundary() {
+    std::vector<std::uint32_t> alone;
+    for (std::size_t node = 0; node + 1 < begin_.size(); ++node) {
+      const auto begin = uses_.begin() + begin_[node];
+      const auto end = uses_.begin() + begin_[node + 1];
+      std::sort(begin, end);
+      for (auto use = begin; use != end;) {
+        const auto next = std::find_if(use, end, [&](const FaceUse<dim>& other) { return other.key != use->key; });
+        if (next == use + 1) alone.push_back(use->place);
+        use = next;
+      }
+    }
+    std::sort(alone.begin(), alone.end());
+    return alone;
+  }
+
+ private:
+  static std::array<NodeId, dim> sorted_face(const BlockMesh<dim>& mesh, const Block& block, std::size_t place) {
+    auto nodes = opposite_face<dim>(mesh.elements[block.elements[place / (dim + 1)]], static_cast<int>(place % (dim + 1)));
     std::sort(nodes.begin(), nodes.end());
-    uses.push_back({nodes, static_cast<std::uint32_t>(place)});
+    return nodes;
   }
-  std::sort(uses.begin(), uses.end());
-  std::vector<std::uint32_t> boundary;
-  for (std::size_t i = 0; i < uses.size();) {
-    std::size_t next = i + 1;
-    while (next < uses.size() && uses[next].key == uses[i].key) ++next;
-    if (next == i + 1) boundary.push_back(uses[i].place);
-    i = next;
-  }
-  std::sort(boundary.begin(), boundary.end());
-  for (const std::uint32_t place : boundary) {
+  std::size_t least(const std::array<NodeId, dim>& nodes) const { return nodes.front().index() - first_; }
+
+  std::size_t first_;                 // node of the block
+  std::vector<std::uint32_t> begin_;  // of each node in uses_, and the end
+  std::vector<FaceUse<dim>> uses_;
+};
+
+// The two uses of an inner face have the same nodes; what stands alone is boundary.
+template <int dim>
+void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, Table<FaceId, Face<dim>>& faces) {
+  const auto elements = mesh.blocks[block].elements;
+  for (const std::uint32_t place : FacesByNode<dim>(mesh, mesh.blocks[block]).boundary()) {
     const ElementId element = elements[place / (dim + 1)];
     faces.push_back({opposite_face<dim>(mesh.elements[element], static_cast<int>(place % (dim + 1))), element, block});
   }
@@ -59,8 +94,7 @@ void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, std::vector<Face
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh) {
   Table<FaceId, Face<dim>> faces;
-  std::vector<FaceUse<dim>> uses;
-  for (const BlockId block : mesh.blocks.ids()) add_block_faces(mesh, block, uses, faces);
+  for (const BlockId block : mesh.blocks.ids()) add_block_faces(mesh, block, faces);
   return faces;
 }
 

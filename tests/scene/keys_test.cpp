@@ -186,6 +186,7 @@ std::vector<Change> heat_changes() {
           {"heat.integrator", {}, "heat.integrator=explicit_euler"},
           {"heat.step", {"heat.integrator=explicit_euler"}, "heat.step=1"},
           {"output.every", {}, "output.every=1"},
+          {"output.frames_every", {"output.every=1"}, "output.frames_every=3"},
           {"output.probes.*", {}, "output.probes.low=[1, 0, 0]"},
           {"output.probes.*.point", {}, "output.probes.high.point=[1, 0, 0]"},
           {"output.probes.*.reach", {}, "output.probes.high.reach=1"},

@@ -85,7 +85,7 @@ TEST(ReadScene, TheEffectiveSceneShowsEveryDefault) {
   const std::string text = scene_of(whole_scene).effective;
   for (const char* line :
        {"dimension: 3", "friction: 0.6", "blocks: whole", "fixed: false", "limit: 10 s", "gravity: [0, 0, -9.81]",
-        "stiffness_factor: 10", "form: consistent", "tolerance: 0.1 K", "integrator: implicit", "reach: 0 m"}) {
+        "stiffness_factor: 10", "form: consistent", "tolerance: 0.1 K", "integrator: automatic", "reach: 0 m"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }

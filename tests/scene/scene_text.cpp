@@ -208,6 +208,7 @@ std::string values_of(const Scene& scene) {
   if (const auto& box = scene.effective_window) {
     text += fmt::format("\neffective {} {}", text_of(Eigen::Vector3d(box->min())), text_of(Eigen::Vector3d(box->max())));
   }
+  text += fmt::format("\nframes {}", scene.frames_every);
   for (const auto& p : scene.probes) {
     text += fmt::format("\nprobe {} {} {} {}", p.name, text_of(p.point), p.reach, p.exact ? text_of(*p.exact) : "");
   }

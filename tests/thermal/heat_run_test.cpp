@@ -129,7 +129,7 @@ TEST(HeatRun, AnInsulatedPileKeepsItsHeat) {
 
 TEST(HeatRun, LedgerNamesWhatCameInWhere) {
   const HeatModel model = rubble_model<3>(10, both);
-  for (const Integrator integrator : {Integrator::implicit, Integrator::explicit_euler}) {
+  for (const Integrator integrator : {Integrator::implicit, Integrator::stabilised_explicit, Integrator::explicit_euler}) {
     TimeOptions options = times(20, 10, 0.1);
     options.integrator = integrator;
     HeatRun run(model, options);
@@ -156,6 +156,50 @@ TEST(HeatRun, ImplicitAndExplicitAgreeWithinTheirErrors) {
   EXPECT_GT(largest_difference(a, b), 0);
 }
 
+TEST(HeatRun, StabilisedExplicitStepsKeepTheToleranceThatImplicitOnesKeep) {
+  const HeatModel model = rubble_model<3>(10, both);
+  TimeOptions fine = times(300, 100, 1e-4);
+  fine.integrator = Integrator::implicit;
+  const auto exact = outputs(model, fine);
+  for (const double tolerance : {1.0, 0.1, 0.01}) {
+    TimeOptions options = times(300, 100, tolerance);
+    options.integrator = Integrator::stabilised_explicit;
+    HeatState state;
+    const double error = largest_difference(outputs(model, options, &state), exact);
+    EXPECT_LE(error, state.time_error) << tolerance;
+    EXPECT_LE(state.time_error, tolerance);
+    EXPECT_GT(error, 0);
+    EXPECT_EQ(state.factorisations, 0);
+    EXPECT_LT(state.ledger.relative_residual(), 1e-12);
+  }
+}
+
+TEST(HeatRun, ChoosesProductsForLooseJointsAndAFactorisationForStiffOnes) {
+  const auto solver = [](double beta) {
+    const HeatModel model = rubble_model<3>(beta, both);
+    return HeatRun(model, times(3600, 600, 0.1)).solver();
+  };
+  EXPECT_THAT(solver(0.1), testing::HasSubstr("RKL2"));
+  EXPECT_THAT(solver(1e6), testing::HasSubstr("CHOLMOD"));
+}
+
+TEST(HeatRun, StabilisedExplicitStepsRefuseConditionsThatChangeInTime) {
+  const auto swinging = [](HeatOptions& options) {
+    const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
+    ValueRule rule;
+    rule.quantity = quantity::temperature;
+    options.boundaries.push_back({test::on(BodyId{0}, test::between_x(0, 0)),
+                                  FixedTemperature{Function::from_expression("300 + sin(t)", unit, rule)},
+                                  "left",
+                                  {}});
+  };
+  const HeatModel model = rubble_model<2>(10, swinging);
+  TimeOptions options = times(10, 1, 0.1);
+  EXPECT_THAT(HeatRun(model, options).solver(), testing::HasSubstr("CHOLMOD"));
+  options.integrator = Integrator::stabilised_explicit;
+  EXPECT_THROW(HeatRun(model, options), InputError);
+}
+
 TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
   mesh::BlockMesh<3> mesh;
   mesh.bodies.push_back({"stone", MaterialId{0}, false, {}});
@@ -174,7 +218,7 @@ TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
 
 TEST(HeatRun, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
   const auto file = std::filesystem::path(testing::TempDir()) / "scree_heat_run_resume.h5";
-  for (const Integrator integrator : {Integrator::implicit, Integrator::explicit_euler}) {
+  for (const Integrator integrator : {Integrator::implicit, Integrator::stabilised_explicit, Integrator::explicit_euler}) {
     const HeatModel model = rubble_model<3>(100, both);
     TimeOptions options = times(0.33, 0.1, 0.05);
     options.integrator = integrator;

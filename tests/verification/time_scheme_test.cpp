@@ -68,7 +68,7 @@ Steps take(TimeScheme& scheme, const Modes& exact, const Eigen::VectorXd& start,
   return result;
 }
 
-TEST(TimeScheme, ImplicitStepsAreOfSecondOrderAndExplicitOnesOfFirst) {
+TEST(TimeScheme, ImplicitAndStabilisedStepsAreOfSecondOrderAndExplicitOnesOfFirst) {
   const HeatModel model = two_halves(1);
   const Modes exact(model);
   const Eigen::VectorXd smooth = exact.after(0.3 / exact.slowest(), model.initial);
@@ -80,6 +80,8 @@ TEST(TimeScheme, ImplicitStepsAreOfSecondOrderAndExplicitOnesOfFirst) {
   };
   EXPECT_NEAR(order(*implicit, 8), 2, 0.15);
   EXPECT_NEAR(order(*implicit, 32), 2, 0.05);
+  const auto stabilised = make_stabilised_scheme(model);
+  EXPECT_NEAR(order(*stabilised, 32), 2, 0.15);
   const int stable = static_cast<int>(std::ceil(until / stable_step(model).step));
   EXPECT_NEAR(order(*explicit_euler, stable), 1, 0.1);
 }
@@ -94,6 +96,15 @@ TEST(TimeScheme, EstimateTimesSafetyBoundsTheErrorForAnyStep) {
       const Steps steps = take(*scheme, exact, model.initial, 20 * step, 20);
       EXPECT_LE(steps.error, scheme->safety() * steps.estimate) << beta << " " << step;
       EXPECT_GE(steps.error, 0.5 * steps.estimate) << beta << " " << step;
+    }
+    // Stabilised explicit ones: never below the true error; far above it for steps that leap over fast modes.
+    const auto stabilised = make_stabilised_scheme(model);
+    for (double step = 0.01 / exact.fastest(); step < 30 / exact.slowest(); step *= 2.7) {
+      const Steps steps = take(*stabilised, exact, model.initial, 20 * step, 20);
+      EXPECT_LE(steps.error, stabilised->safety() * steps.estimate) << beta << " " << step;
+      if (step < 0.3 / exact.fastest()) {
+        EXPECT_GE(steps.error, 0.5 * steps.estimate) << beta << " " << step;
+      }
     }
   }
 }

@@ -128,7 +128,7 @@ std::vector<Order> observed_orders(const std::vector<Measured>& runs) {
     const std::string family = words(run.rung);
     if (std::find(done.begin(), done.end(), family) != done.end()) continue;
     Measured like = run;
-    like.rung.tolerance = run.rung.integrator == "implicit" ? least_tolerance : run.rung.tolerance;
+    like.rung.tolerance = run.rung.integrator != "explicit_euler" ? least_tolerance : run.rung.tolerance;
     if (auto order = fit("mesh size", like, same_but_mesh, [](const Measured& r) { return r.rung.mesh_factor; })) {
       order->at = fmt::format("{}, tolerance {:g} K", family, like.rung.tolerance);
       orders.push_back(*order);

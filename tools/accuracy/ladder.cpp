@@ -56,10 +56,10 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::vector<Rung> ladder;
   for (const std::string& model : or_else(options.contact_models, {std::string()})) {
-    for (const std::string& integrator : or_else(options.integrators, {std::string("implicit")})) {
+    for (const std::string& integrator : or_else(options.integrators, {std::string("automatic")})) {
       for (const double factor : factors) {
         // Explicit steps follow from stability, whatever the tolerance.
-        const bool chooses_steps = integrator == "implicit";
+        const bool chooses_steps = integrator != "explicit_euler";
         const std::vector<double> varied = chooses_steps ? tolerances : std::vector<double>{tolerances.front()};
         for (const double asked : varied) ladder.push_back({factor, asked, integrator, model});
       }
@@ -70,7 +70,7 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
 
 std::size_t finest(const std::vector<Rung>& ladder) {
   const auto coarseness = [](const Rung& rung) {
-    return std::tuple(rung.mesh_factor, rung.integrator == "implicit" ? 0 : 1, rung.tolerance);
+    return std::tuple(rung.mesh_factor, rung.integrator == "explicit_euler" ? 1 : 0, rung.tolerance);
   };
   const auto best = std::min_element(ladder.begin(), ladder.end(),
                                      [&](const Rung& a, const Rung& b) { return coarseness(a) < coarseness(b); });

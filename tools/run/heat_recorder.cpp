@@ -1,5 +1,8 @@
 #include "tools/run/heat_recorder.h"
 
+#include <cmath>
+
+#include "engine/base/threads.h"
 #include "thermal/space_error.h"
 #include "tools/run/frames.h"
 
@@ -10,6 +13,13 @@ namespace {
 template <int dim>
 output::ProbeTable start_table(const RunFiles& files, const HeatedPile<dim>& pile) {
   return output::ProbeTable(files.probes(), output::describe(pile.probes, pile.mesh), output::columns(pile.probes));
+}
+
+// At the multiples of the frames' interval, and at the end.
+bool frame_due(const Scene& scene, double time) {
+  const double every = scene.frames_every;
+  if (every == 0 || time >= scene.heat->time.until) return true;
+  return std::abs(time / every - std::round(time / every)) < 1e-9;
 }
 
 }  // namespace
@@ -23,8 +33,8 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
       grid_(output::make_grid(pile.mesh)),
       contact_grid_(contact_grid(pile.contacts)),
       identity_(identity_arrays(pile.mesh)),
-      series_(files.directory, "heat", resumed_from),
-      contact_series_(files.directory, "contacts", resumed_from) {
+      series_(files.directory, "heat", resumed_from) {
+  if (!pile.contacts.contacts.empty()) contact_series_.emplace(files.directory, "contacts", resumed_from);
   if (pile.probes.empty()) return;
   if (resumed_from) {
     table_.emplace(files.probes(), *resumed_from);
@@ -35,6 +45,32 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
 
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
+  finish();
+  if (threads_in_use() == 1) {
+    write(state);
+    return;
+  }
+  pending_ = std::async(std::launch::async, [this, state] {
+    use_threads(1);  // of this thread's own loops
+    write(state);
+  });
+}
+
+template <int dim>
+void HeatRecorder<dim>::finish() {
+  if (pending_.valid()) pending_.get();
+}
+
+template <int dim>
+void HeatRecorder<dim>::write(const thermal::HeatState& state) {
+  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, state.temperature, state.time));
+  if (!frame_due(scene_, state.time)) return;
+  write_frame(state);
+  thermal::write(state, pile_.key, restart_);
+}
+
+template <int dim>
+void HeatRecorder<dim>::write_frame(const thermal::HeatState& state) {
   const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, state.temperature);
   output::Frame frame = heat_frame<dim>(state.time, identity_, state.temperature, flux);
   if (model_ != nullptr) {
@@ -43,11 +79,9 @@ void HeatRecorder<dim>::record(const thermal::HeatState& state) {
     frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
   }
   series_.write(grid_, frame);
-  const auto form = scene_.heat->joint.form;
-  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, form);
-  contact_series_.write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
-  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, state.temperature, state.time));
-  thermal::write(state, pile_.key, restart_);
+  if (!contact_series_) return;
+  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, scene_.heat->joint.form);
+  contact_series_->write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
 }
 
 template class HeatRecorder<2>;

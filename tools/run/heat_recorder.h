@@ -1,6 +1,7 @@
 // Everything a heated run writes at an output time, in an order that keeps the files consistent whenever the run ends.
 #pragma once
 
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,10 +36,18 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error(const thermal::HeatModel& model) { model_ = &model; }
 
-  // The restart file comes last: it never promises more than the other files hold.
+  // With a thread to spare the files are written beside the computation; what goes wrong is then thrown by the next
+  // record() or by finish().
   void record(const thermal::HeatState& state);
 
+  // Waits until everything is written.
+  void finish();
+
  private:
+  // The restart file comes last: it never promises more than the other files hold.
+  void write(const thermal::HeatState& state);
+  void write_frame(const thermal::HeatState& state);
+
   const Scene& scene_;
   const HeatedPile<dim>& pile_;
   std::filesystem::path restart_;
@@ -46,9 +55,10 @@ class HeatRecorder {
   output::Grid contact_grid_;
   std::vector<output::Array> identity_;
   output::Series series_;
-  output::Series contact_series_;
+  std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
   const thermal::HeatModel* model_ = nullptr;  // of the space error; none if it is not asked for
+  std::future<void> pending_;                  // goes first, so that it ends before what it uses
 };
 
 }  // namespace scree::run

@@ -31,6 +31,7 @@ std::optional<Eigen::VectorXd> earlier_temperatures(RunContext& context, const m
 template <int dim>
 contact::ContactSet<dim> find_joints(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   const thermal::JointOptions& joint = scene.heat->joint;
+  if (mesh.blocks.size() < 2) return {};
   auto contacts = contact::find_contacts(mesh, thermal::contact_search(joint, mesh.bodies, *scene.contact));
   thermal::check_rules(joint, mesh, contacts);
   return contacts;
@@ -72,6 +73,7 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
     });
     recorder.record(run.state());
   }
+  recorder.finish();
 }
 
 template <int dim>
@@ -98,6 +100,7 @@ void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
   outcome.state = thermal::steady_state(outcome.model);
   outcome.solver = "steady state";
   recorder.record(outcome.state);
+  recorder.finish();
 }
 
 }  // namespace

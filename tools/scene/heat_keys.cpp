@@ -109,7 +109,10 @@ Keys time_keys() {
           q::temperature_difference, positive)
           .fallback(with_unit(by_default.tolerance, "K"))
           .only({in_time}),
-      row("heat.integrator", word, "Steps in time.").words({"implicit", "explicit_euler"}).fallback("implicit").only({in_time}),
+      row("heat.integrator", word, "Steps in time.")
+          .words({"automatic", "implicit", "stabilised_explicit", "explicit_euler"})
+          .fallback("automatic")
+          .only({in_time}),
       row("heat.step", quantity, "Time step.", q::time, positive)
           .otherwise("largest stable one")
           .only({in_time, Condition{"heat.integrator", "explicit_euler"}}),

@@ -29,11 +29,25 @@ std::string words_of(const thermal::JointOptions& joint) {
   return joint.rules.empty() ? text : text + fmt::format(", and contact.joints has {}", joint.rules.size());
 }
 
+std::string words_of(thermal::Integrator integrator) {
+  using enum thermal::Integrator;
+  switch (integrator) {
+    case automatic:
+      return "steps that are chosen by their cost";
+    case implicit:
+      return "implicit steps";
+    case stabilised_explicit:
+      return "stabilised explicit steps";
+    case explicit_euler:
+      break;
+  }
+  return "explicit steps";
+}
+
 Model conduction(const HeatOptions& heat) {
   if (heat.time.steady) return {"conduction in blocks", true, "the scene has a heat section: the steady state, without time"};
-  const bool euler = heat.time.integrator == thermal::Integrator::explicit_euler;
   return {"conduction in blocks", true,
-          fmt::format("the scene has a heat section: {:g} s in {} steps", heat.time.until, euler ? "explicit" : "implicit")};
+          fmt::format("the scene has a heat section: {:g} s in {}", heat.time.until, words_of(heat.time.integrator))};
 }
 
 // Names of the boundaries with a condition.

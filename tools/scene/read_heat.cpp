@@ -166,6 +166,13 @@ void check_times(const thermal::HeatOptions& options, Problems& problems) {
   for (const thermal::Source& source : options.sources) check(source.power);
 }
 
+thermal::Integrator read_integrator(const std::string& word) {
+  using enum thermal::Integrator;
+  if (word == "implicit") return implicit;
+  if (word == "stabilised_explicit") return stabilised_explicit;
+  return word == "explicit_euler" ? explicit_euler : automatic;
+}
+
 thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
   thermal::TimeOptions time;
   time.steady = heat.at("steady").flag();
@@ -173,8 +180,7 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
   time.until = heat.at("until").number();
   time.tolerance = heat.at("tolerance").number();
   time.output_every = output.at("every").number();
-  const bool euler = heat.at("integrator").text == "explicit_euler";
-  time.integrator = euler ? thermal::Integrator::explicit_euler : thermal::Integrator::implicit;
+  time.integrator = read_integrator(heat.at("integrator").text);
   if (const Checked* step = heat.find("step")) time.step = step->number();
   return time;
 }

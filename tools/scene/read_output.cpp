@@ -1,6 +1,22 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "tools/scene/sections.h"
 
 namespace scree {
+
+double read_frames_every(const Checked& output, Problems& problems) {
+  const Checked* frames = output.find("frames_every");
+  if (frames == nullptr || !frames->sound) return 0;
+  const double every = output.at("every").number();
+  const double ratio = frames->number() / every;
+  if (every > 0 && (ratio < 0.5 || std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)) {
+    problems.push_back(frames->problem(fmt::format("{:g} s", frames->number()),
+                                       fmt::format("must be a multiple of output.every, {:g} s", every)));
+  }
+  return frames->number();
+}
 
 std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& problems) {
   std::vector<output::ProbeSpec> probes;

@@ -91,6 +91,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.effective_window = read_effective_window(*heat, scene.dimension, problems);
     scene.initial_field = read_initial_field(heat->at("initial"));
   }
+  scene.frames_every = read_frames_every(checked.at("output"), problems);
   scene.probes = read_probes(checked.at("output"), problems);
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));

@@ -37,6 +37,8 @@ struct Scene {
   std::optional<thermal::HeatOptions> heat;
   std::optional<Aabb<3>> effective_window;           // of which to find the effective conductivity [m]; 2-D ignores z
   std::optional<output::StoredField> initial_field;  // instead of heat->initial_temperature
+  double frames_every =
+      0;  // time between frames of heat.pvd, a multiple of heat->time.output_every; 0: at all output times [s]
   std::vector<output::ProbeSpec> probes;
   std::vector<std::filesystem::path> tables;  // files that functions and curves come from
   std::string effective;                      // the scene as YAML with every default filled in; reading it gives the same scene

@@ -23,6 +23,7 @@ thermal::JointOptions read_joint(const Checked& scene, Problems& problems);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems);
 std::optional<output::StoredField> read_initial_field(const Checked& initial);
+double read_frames_every(const Checked& output, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& problems);
 
 // What one section needs of another: a density to settle, a conductivity for heat, a temperature for every body.

@@ -1,0 +1,15 @@
+// The matrices of the blocks, eqs. (4), (5) and (7), row by row: what a mesh of ten million elements needs is the matrix and a
+// list of its simplices, no list of entries. Rows are independent, so threads share them without a change of any bit; an entry
+// and its mirror image are summed in the same order, so K is symmetric to the bit.
+#pragma once
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+// Fills in the capacities (and masses, if they vary) of the model, which has its initial temperatures; returns K of the
+// blocks with a constant conductivity, and sets U of the others where there are any.
+template <int dim>
+SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model);
+
+}  // namespace scree::thermal

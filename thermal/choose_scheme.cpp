@@ -1,0 +1,64 @@
+#include "thermal/choose_scheme.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "thermal/heat_run.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Measured on one core (README, "Which steps"): only their ratios matter.
+constexpr double seconds_per_entry = 1.6e-9;   // of K, in a product with two columns
+constexpr double seconds_per_flop = 2.5e-10;   // of a supernodal factorisation
+constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
+// An implicit run takes about so many factorisations and, for each factorisation, solves.
+constexpr double factorisations = 12;
+constexpr double solves = 500;
+// What the symbolic analysis takes, an unknown [s].
+constexpr double seconds_per_unknown = 1e-5;
+
+// The least that implicit steps can cost: analysis, and solves with a factor without any fill.
+double least_implicit(const HeatModel& model) {
+  const double lower = 0.5 * static_cast<double>(model.conductance.nonZeros());
+  return seconds_per_unknown * static_cast<double>(model.capacity.size()) + solves * seconds_per_factor * lower;
+}
+
+ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
+  if (!can_be_stabilised(model)) {
+    return {make_implicit_scheme(model), "conditions or properties change, which stabilised explicit steps do not do"};
+  }
+  const double products = stabilised_products(model, options);
+  const double stabilised = products * seconds_per_entry * static_cast<double>(model.conductance.nonZeros());
+  if (stabilised < least_implicit(model)) {
+    return {make_stabilised_scheme(model),
+            fmt::format("some {:.0f} products with K, less than a factorisation takes", products)};
+  }
+  auto implicit = make_linear_scheme(model);
+  const FactorSize factor = implicit->factor_size();
+  const double direct = factorisations * seconds_per_flop * factor.flops + solves * seconds_per_factor * factor.entries;
+  const std::string figures = fmt::format("{:.0f} products with K or {:.3g} flops a factorisation: about {:.2g} s or {:.2g} s",
+                                          products, factor.flops, stabilised, direct);
+  if (stabilised < direct) return {make_stabilised_scheme(model), figures};
+  return {std::move(implicit), figures};
+}
+
+}  // namespace
+
+ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options) {
+  switch (options.integrator) {
+    case Integrator::implicit:
+      return {make_implicit_scheme(model), "asked for"};
+    case Integrator::stabilised_explicit:
+      return {make_stabilised_scheme(model), "asked for"};
+    case Integrator::explicit_euler:
+      return {make_explicit_scheme(model), "asked for"};
+    case Integrator::automatic:
+      break;
+  }
+  return chosen_by_cost(model, options);
+}
+
+}  // namespace scree::thermal

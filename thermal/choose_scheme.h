@@ -1,0 +1,21 @@
+// Which steps in time cost least, and why.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+
+struct ChosenScheme {
+  std::unique_ptr<TimeScheme> scheme;
+  std::string why;  // in words, for the summary
+};
+
+// As the options say or, if they leave it open, what costs least: stabilised explicit steps by the number of their products,
+// implicit ones by the symbolic analysis of their factorisation. The choice is arithmetic with the model's figures and the same
+// everywhere. Refers to the model.
+ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options);
+
+}  // namespace scree::thermal
