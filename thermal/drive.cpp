@@ -1,5 +1,6 @@
 #include "thermal/drive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -101,8 +102,11 @@ void Drives::evaluate(Part part, Drive& drive) const {
 
 const Drive& Drives::at(double time) {
   if (!vary_) return constant_;
-  for (const Drive& drive : recent_) {
-    if (drive.time == time) return drive;
+  const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const Drive& drive) { return drive.time == time; });
+  if (known != recent_.end()) {
+    // The latest asked for is the last to go: a step that is tried again holds on to the one at its start.
+    recent_.splice(recent_.begin(), recent_, known);
+    return recent_.front();
   }
   if (recent_.size() == recent_times) recent_.pop_back();
   recent_.push_front(constant_);
