@@ -124,8 +124,7 @@ std::string vtu_text(const Grid& grid, const Frame& frame, const fs::path& file)
   const auto data = to_vtk(grid, frame);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  writer->SetDataModeToBinary();
   writer->SetCompressorTypeToLZ4();
   writer->SetHeaderTypeToUInt64();
   writer->SetByteOrderToLittleEndian();

@@ -162,6 +162,16 @@ TEST_F(SeriesTest, CellsAreShownAndNotTheirSimplices) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(data->GetCell(2)->GetPointId(i), 11 - i);
 }
 
+// Raw bytes in a file are no XML, and an appended section is what today's parsers stop at (README.md).
+TEST_F(SeriesTest, AFrameIsTextWithoutAnAppendedSection) {
+  const auto mesh = random_tets(50);
+  Series series(folder_.path(), "heat");
+  series.write(make_grid(mesh), frame_of(mesh, 1));
+  const std::string text = content(folder_.path() / "heat" / "heat_000000.vtu");
+  EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+  EXPECT_EQ(text.find("AppendedData"), std::string::npos);
+}
+
 TEST_F(SeriesTest, TheIndexNamesEveryFrameWithItsExactTime) {
   Series series(folder_.path(), "heat");
   write_frames(series, {0, 0.1, 1.0 / 3});
