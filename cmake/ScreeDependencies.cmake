@@ -17,6 +17,13 @@ pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
              FiltersSources IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 
+# Debian's own Python, which has Debian's numpy, whatever else the PATH holds.
+find_program(SCREE_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+set(Python_EXECUTABLE ${SCREE_PYTHON})
+set(PYBIND11_FINDPYTHON ON)
+find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 REQUIRED)
+
 # scree_library(TARGET LIBRARY HEADER [SUFFIX]): for packages without a CMake or pkg-config file.
 function(scree_library target library header)
   find_library(${target}_LIBRARY ${library} REQUIRED)

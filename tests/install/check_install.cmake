@@ -1,4 +1,4 @@
-# Installs BUILD into an empty folder inside it, and uses what stands there: cmake -D BUILD=... -D VERSION=... -D READELF=... -P this
+# Installs BUILD into an empty folder inside it, and uses what stands there: cmake -D BUILD=... -D VERSION=... -D READELF=... -D PYTHON=... -P this
 
 # run(OUTPUT COMMAND...): its standard output, or a failure that shows what it said.
 function(run output)
@@ -30,6 +30,15 @@ if(NOT scenes)
 endif()
 # One scene shows that the command finds what it needs; the scenes themselves are tests/scenes's.
 run(ignored ${prefix}/bin/scree check ${prefix}/share/scree/scenes/slab.yaml)
+
+run(python_version ${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/lib/python3/dist-packages ${PYTHON} -B -c
+    "print(__import__('scree').__version__)")
+if(NOT python_version MATCHES "^${VERSION}")
+  message(FATAL_ERROR "the Python module of ${VERSION} says: ${python_version}")
+endif()
+if(NOT EXISTS ${prefix}/lib/python3/dist-packages/scree.pyi)
+  message(FATAL_ERROR "scree.pyi was not installed")
+endif()
 
 foreach(document IN ITEMS LICENSE CHANGELOG.md tools/README.md)
   if(NOT EXISTS ${prefix}/share/doc/scree/${document})

@@ -6,26 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_set.h"
-#include "engine/output/probes.h"
 #include "engine/output/series.h"
 #include "thermal/heat_run.h"
-#include "thermal/joint_conduction.h"
+#include "tools/run/heated_pile.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/scene.h"
 
 namespace scree::run {
-
-// What the recorder shows, unchanged through the run.
-template <int dim>
-struct HeatedPile {
-  mesh::BlockMesh<dim> mesh;  // as placed
-  contact::ContactSet<dim> contacts;
-  thermal::JointConduction<dim> joints;
-  std::vector<output::Probe<dim>> probes;
-  std::optional<Eigen::VectorXd> start;  // temperatures of an earlier run, if the scene starts from them [K]
-  std::string key;                       // of the heat stage
-};
 
 template <int dim>
 class HeatRecorder {

@@ -6,48 +6,20 @@
 
 #include <fmt/format.h>
 
-#include "contact/find_contacts.h"
 #include "engine/output/probe_history.h"
-#include "engine/output/stored_field.h"
 #include "thermal/steady_state.h"
-#include "tools/run/keys.h"
 
 namespace scree::run {
 
 namespace {
 
-// The temperatures of an earlier run, if the scene starts from them.
-template <int dim>
-std::optional<Eigen::VectorXd> earlier_temperatures(RunContext& context, const mesh::BlockMesh<dim>& mesh) {
-  if (!context.scene.initial_field) return std::nullopt;
-  const output::NodalField field = output::read_stored(*context.scene.initial_field, mesh);
-  context.progress.note(field.same_mesh ? std::string("heat: starts from the temperatures of an earlier run, node by node")
-                                        : fmt::format("heat: starts from temperatures interpolated in the mesh of an earlier "
-                                                      "run; {} nodes lay outside",
-                                                      field.moved));
-  return field.values;
-}
-
-template <int dim>
-contact::ContactSet<dim> find_joints(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
-  const thermal::JointOptions& joint = scene.heat->joint;
-  if (mesh.blocks.size() < 2) return {};
-  auto contacts = contact::find_contacts(mesh, thermal::contact_search(joint, mesh.bodies, *scene.contact));
-  thermal::check_rules(joint, mesh, contacts);
-  return contacts;
-}
-
 template <int dim>
 HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& packing) {
-  const Scene& scene = context.scene;
-  HeatedPile<dim> pile;
-  pile.mesh = packing::placed_mesh(packing);
-  pile.probes = output::locate_probes(pile.mesh, scene.probes);
-  pile.start = earlier_temperatures(context, pile.mesh);
-  pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
-  pile.contacts = context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()),
-                                [&] { return find_joints(scene, pile.mesh); });
-  pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, scene.heat->joint);
+  auto pile = placed_pile(context.scene, packing, [&](const std::string& text) { context.progress.note(text); });
+  context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()), [&] {
+    join(context.scene, pile);
+    return true;
+  });
   return pile;
 }
 
@@ -110,11 +82,8 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
   const Scene& scene = context.scene;
   HeatOutcome<dim> outcome;
   outcome.pile = find_pile(context, packing);
-  outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()), [&] {
-    thermal::HeatOptions options = *scene.heat;
-    options.initial_field = outcome.pile.start;
-    return thermal::make_heat_model(outcome.pile.mesh, scene.materials, outcome.pile.contacts, options);
-  });
+  outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
+                                [&] { return heat_model(scene, outcome.pile); });
   if (scene.effective_window) {
     const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
                            scene.effective_window->max().template head<dim>());

@@ -16,6 +16,7 @@ void remember(int signal) {
 }  // namespace
 
 void catch_interrupts() {
+  interrupted = 0;
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
 }

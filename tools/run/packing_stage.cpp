@@ -54,14 +54,6 @@ packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks
   return rigid::settle(blocks, context.scene.materials, stage.options, frame, progress);
 }
 
-template <int dim>
-PackingOutcome<dim> from_file(RunContext& context) {
-  auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
-                               [&] { return packing::read<dim>(*context.scene.packing); });
-  adopt_scene_bodies(context.scene, packing);
-  return {std::move(packing), false};
-}
-
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   if (packing::stored_key(context.files.packing()) == key) {
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
@@ -75,8 +67,19 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
 }  // namespace
 
 template <int dim>
+packing::Packing<dim> stored_packing(const Scene& scene) {
+  auto packing = packing::read<dim>(*scene.packing);
+  adopt_scene_bodies(scene, packing);
+  return packing;
+}
+
+template <int dim>
 PackingOutcome<dim> packing_stage(RunContext& context) {
-  if (context.scene.packing) return from_file<dim>(context);
+  if (context.scene.packing) {
+    auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
+                                 [&] { return stored_packing<dim>(context.scene); });
+    return {std::move(packing), false};
+  }
   auto blocks = context.stage("mesh", fmt::format("{} bodies", context.scene.bodies.size()),
                               [&] { return mesh::make_blocks<dim>(context.scene.bodies, output::mesh_readers()); });
   const std::string key = packing_key(context.scene, blocks);
@@ -91,6 +94,8 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
   return outcome;
 }
 
+template packing::Packing<2> stored_packing<2>(const Scene&);
+template packing::Packing<3> stored_packing<3>(const Scene&);
 template PackingOutcome<2> packing_stage<2>(RunContext&);
 template PackingOutcome<3> packing_stage<3>(RunContext&);
 

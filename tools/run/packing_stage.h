@@ -12,6 +12,10 @@ struct PackingOutcome {
   bool reused = false;  // from an earlier run whose settle stage had the same key
 };
 
+// The packing file the scene names, with the scene's bodies.
+template <int dim>
+packing::Packing<dim> stored_packing(const Scene& scene);
+
 template <int dim>
 PackingOutcome<dim> packing_stage(RunContext& context);
 

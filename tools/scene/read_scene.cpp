@@ -10,9 +10,7 @@ namespace scree {
 
 namespace {
 
-InputValue read_with_overrides(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                               Problems& problems) {
-  InputValue root = read_yaml(file);
+void apply_overrides(const std::vector<std::string>& overrides, InputValue& root, Problems& problems) {
   for (const std::string& assignment : overrides) {
     try {
       apply_override(root, assignment);
@@ -20,7 +18,6 @@ InputValue read_with_overrides(const std::filesystem::path& file, const std::vec
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  return root;
 }
 
 // The length of vectors has to be known before anything is checked.
@@ -65,11 +62,9 @@ void check_packing(const Checked& packing, Problems& problems) {
   }
 }
 
-}  // namespace
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Scene read(InputValue root, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Problems problems;
-  const InputValue root = read_with_overrides(file, overrides, problems);
+  apply_overrides(overrides, root, problems);
   Scene scene;
   scene.file = file;
   scene.dimension = dimension_of(root);
@@ -98,6 +93,16 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   collect_tables(checked, scene.tables);
   scene.effective = to_yaml(checked);
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return read(read_yaml(file), file, overrides);
+}
+
+Scene read_scene_text(const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
+  return read(parse_yaml(text, "scene"), folder / "scene", overrides);
 }
 
 }  // namespace scree

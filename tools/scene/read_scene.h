@@ -13,4 +13,8 @@ namespace scree {
 // order of the file.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+// The same of a text; paths in it are relative to `folder`.
+Scene read_scene_text(const std::string& text, const std::filesystem::path& folder,
+                      const std::vector<std::string>& overrides = {});
+
 }  // namespace scree

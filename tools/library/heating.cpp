@@ -1,0 +1,80 @@
+#include "tools/library/heating.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/nearest.h"
+#include "thermal/steady_state.h"
+
+namespace scree {
+
+namespace {
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& key, const std::string& value, const std::string& rule,
+                         const std::string& suggestion) {
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = key;
+  problem.value = value;
+  problem.rule = rule;
+  problem.suggestion = suggestion;
+  throw InputError(problem);
+}
+
+}  // namespace
+
+template <int dim>
+Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) : scene_(scene) {
+  if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
+  pile_ = run::placed_pile(scene_, packing);
+  run::join(scene_, pile_);
+  const thermal::HeatModel model = run::heat_model(scene_, pile_);
+  if (scene_.heat->time.steady) {
+    steady_ = thermal::steady_state(model);
+  } else {
+    run_.emplace(model, scene_.heat->time);
+  }
+}
+
+template <int dim>
+void Heating<dim>::advance_to(double time, const std::function<void(double)>& progress) {
+  if (!run_) refuse(scene_, "heat.until", "steady", "a steady state has no time to advance to", "");
+  if (!(time >= state().time)) {
+    refuse(scene_, "the time", fmt::format("{:g} s", time), fmt::format("must be at least {:g} s, the present", state().time),
+           "");
+  }
+  if (time > state().time) run_->advance_to(time, progress);
+}
+
+template <int dim>
+double Heating<dim>::probe(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& probe : pile_.probes) {
+    if (probe.name == name) return output::value_at(probe, pile_.mesh, state().temperature);
+    names.push_back(probe.name);
+  }
+  refuse(scene_, "a probe", name, "must be one of the scene's", suggest(name, names));
+}
+
+template <int dim>
+std::vector<double> Heating<dim>::contact_flows() const {
+  return thermal::contact_flows(pile_.contacts, pile_.joints, state().temperature, scene_.heat->joint.form);
+}
+
+template <int dim>
+std::vector<double> Heating<dim>::next_outputs() const {
+  std::vector<double> times;
+  if (!run_) return times;
+  const thermal::TimeOptions& options = scene_.heat->time;
+  for (double time = state().time; time < options.until; times.push_back(time)) {
+    time = std::min((std::floor(time / options.output_every + 1e-9) + 1) * options.output_every, options.until);
+  }
+  return times;
+}
+
+template class Heating<2>;
+template class Heating<3>;
+
+}  // namespace scree

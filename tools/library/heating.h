@@ -1,0 +1,40 @@
+// A packing that is heated, without files: advance it and look at it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "thermal/heat_run.h"
+#include "tools/run/heated_pile.h"
+
+namespace scree {
+
+template <int dim>
+class Heating {
+ public:
+  // Finds the contacts and assembles the balance of heat. Throws InputError for a scene without heat. A steady scene is solved
+  // here.
+  Heating(const Scene& scene, const packing::Packing<dim>& packing);
+
+  // To exactly `time` [s]. `progress` is told the time after every step and may throw to stop. Throws InputError for a steady
+  // scene, and for a time that has passed.
+  void advance_to(double time, const std::function<void(double)>& progress = {});
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const run::HeatedPile<dim>& pile() const { return pile_; }
+  [[nodiscard]] const thermal::HeatState& state() const { return run_ ? run_->state() : steady_; }
+
+  [[nodiscard]] double probe(const std::string& name) const;  // [K]; throws InputError for a name that is no probe
+  [[nodiscard]] std::vector<double> contact_flows() const;    // from owner to target of every contact [W]
+  [[nodiscard]] std::vector<double> next_outputs() const;     // the scene's output times that are still to come [s]
+
+ private:
+  Scene scene_;
+  run::HeatedPile<dim> pile_;
+  std::optional<thermal::HeatRun> run_;
+  thermal::HeatState steady_;
+};
+
+}  // namespace scree

@@ -1,0 +1,44 @@
+// The parts of the Python module, one function each.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/packing/packing.h"
+#include "tools/scene/scene.h"
+
+namespace scree::python {
+
+// A scene and what it was read from, so that it can be read again with changes.
+struct SceneSource {
+  std::string file;  // or the folder that paths in the text are relative to
+  std::string text;  // empty: of a file
+  std::vector<std::string> overrides;
+  Scene scene;
+};
+
+// A packing of either dimension, with its blocks in their places.
+template <int dim>
+struct PlacedPacking {
+  packing::Packing<dim> packing;
+  mesh::BlockMesh<dim> placed;
+};
+struct AnyPacking {
+  std::variant<PlacedPacking<2>, PlacedPacking<3>> packing;
+};
+
+// Lets Ctrl-C stop a long computation: called without Python's lock, takes it for a moment.
+void check_signals();
+
+void bind_errors(pybind11::module_& module);
+void bind_scene(pybind11::module_& module);
+void bind_packing(pybind11::module_& module);
+void bind_heating(pybind11::module_& module);
+void bind_run(pybind11::module_& module);
+
+}  // namespace scree::python

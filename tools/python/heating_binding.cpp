@@ -1,0 +1,139 @@
+#include <pybind11/stl.h>
+
+#include <map>
+
+#include "tools/library/heating.h"
+#include "tools/python/bindings.h"
+#include "tools/python/views.h"
+
+namespace scree::python {
+
+namespace py = pybind11;
+
+namespace {
+
+// A heating of either dimension.
+struct AnyHeating {
+  using Two = std::unique_ptr<Heating<2>>;
+  using Three = std::unique_ptr<Heating<3>>;
+  std::variant<Two, Three> heating;
+  // The temperatures of now in memory of their own: what time goes on with must not change under an array that somebody keeps.
+  std::optional<py::array> now{};
+
+  template <class Use>
+  decltype(auto) use(const Use& work) const {
+    return std::visit([&](const auto& one) -> decltype(auto) { return work(*one); }, heating);
+  }
+};
+
+template <int dim>
+std::unique_ptr<Heating<dim>> start(const Scene& scene, const AnyPacking& packing) {
+  const auto* fitting = std::get_if<PlacedPacking<dim>>(&packing.packing);
+  if (fitting == nullptr) throw py::value_error("the packing has another dimension than the scene");
+  return std::make_unique<Heating<dim>>(scene, fitting->packing);
+}
+
+std::unique_ptr<AnyHeating> heat(const SceneSource& source, const AnyPacking& packing) {
+  const py::gil_scoped_release others_may_run;
+  if (source.scene.dimension == 2) return std::make_unique<AnyHeating>(AnyHeating{start<2>(source.scene, packing)});
+  return std::make_unique<AnyHeating>(AnyHeating{start<3>(source.scene, packing)});
+}
+
+void advance(AnyHeating& self, double time) {
+  self.now.reset();
+  const py::gil_scoped_release others_may_run;
+  self.use([&](auto& heating) { heating.advance_to(time, [](double) { check_signals(); }); });
+}
+
+const thermal::HeatState& state(const AnyHeating& self) {
+  return self.use([](const auto& heating) -> const thermal::HeatState& { return heating.state(); });
+}
+
+py::array temperature(AnyHeating& self) {
+  const Eigen::VectorXd& now = state(self).temperature;
+  if (!self.now) self.now = own(std::vector<double>(now.begin(), now.end()));
+  return *self.now;
+}
+
+std::map<std::string, double> probes(const AnyHeating& self) {
+  return self.use([](const auto& heating) {
+    std::map<std::string, double> values;
+    for (const auto& probe : heating.pile().probes) values[probe.name] = heating.probe(probe.name);
+    return values;
+  });
+}
+
+// The scene's output times that are still to come, and the probes at them.
+py::dict follow(AnyHeating& self) {
+  std::vector<double> times{state(self).time};
+  std::map<std::string, std::vector<double>> values;
+  const auto note = [&] {
+    for (const auto& [name, value] : probes(self)) values[name].push_back(value);
+  };
+  note();
+  for (const double time : self.use([](const auto& heating) { return heating.next_outputs(); })) {
+    advance(self, time);
+    times.push_back(time);
+    note();
+  }
+  py::dict history;
+  history["time"] = own(std::move(times));
+  for (auto& [name, column] : values) history[name.c_str()] = own(std::move(column));
+  return history;
+}
+
+// One member of every contact, from the heating's own memory.
+template <class Number>
+py::array contact_member(const py::object& self, auto member_of, std::size_t width_of_points = 0) {
+  return self.cast<const AnyHeating&>().use([&](const auto& heating) {
+    const auto& contacts = heating.pile().contacts.contacts;
+    using Contact = std::decay_t<decltype(contacts.front())>;
+    constexpr std::size_t dim = std::tuple_size_v<decltype(Contact{}.on_owner.nodes)>;
+    return member_view<Number>(contacts, member_of(Contact{}), width_of_points == 0 ? 1 : dim, self);
+  });
+}
+
+py::dict contacts(const py::object& self) {
+  static_assert(sizeof(BlockId) == sizeof(std::int32_t));
+  py::dict table;
+  table["owner"] = contact_member<std::int32_t>(self, []<class C>(const C&) { return &C::owner; });
+  table["target"] = contact_member<std::int32_t>(self, []<class C>(const C&) { return &C::target; });
+  table["kind"] = contact_member<std::uint8_t>(self, []<class C>(const C&) { return &C::kind; });
+  table["area"] = contact_member<double>(self, []<class C>(const C&) { return &C::area; });
+  table["gap"] = contact_member<double>(self, []<class C>(const C&) { return &C::gap; });
+  table["point"] = contact_member<double>(
+      self, []<class C>(const C&) { return &C::point; }, 1);
+  return table;
+}
+
+}  // namespace
+
+void bind_heating(py::module_& module) {
+  py::class_<AnyHeating>(module, "Heating", "A packing that is heated, in memory.")
+      .def(py::init(&heat), py::arg("scene"), py::arg("packing"),
+           "Finds the contacts and assembles the balance of heat. A steady scene is solved here.")
+      .def("advance_to", &advance, py::arg("time"), "Goes on to this time [s].")
+      .def("follow", &follow,
+           "Goes on to the scene's end; gives the probes at its output times, as a dict of arrays with 'time' [s].")
+      .def_property_readonly(
+          "time", [](const AnyHeating& self) { return state(self).time; }, "How far it is [s].")
+      .def_property_readonly("temperature", &temperature, "Of every node now [K]; stays as it is when time goes on.")
+      .def_property_readonly("probes", &probes, "Temperature at every probe now [K].")
+      .def_property_readonly("contacts", &contacts,
+                             "Every contact as arrays that look into the heating's memory: owner and target (blocks), kind (0 "
+                             "point-face, 1 edge-edge, 2 overlap), area [m2], gap [m], point [m].")
+      .def_property_readonly(
+          "contact_flows",
+          [](const AnyHeating& self) { return own(self.use([](const auto& heating) { return heating.contact_flows(); })); },
+          "Heat flow from owner to target of every contact now [W].")
+      .def_property_readonly(
+          "time_error", [](const AnyHeating& self) { return state(self).time_error; }, "Estimate of the time error so far [K].")
+      .def_property_readonly(
+          "ledger_residual", [](const AnyHeating& self) { return state(self).ledger.relative_residual(); },
+          "Heat that is missing in the balance, over the heat that flowed.")
+      .def_property_readonly(
+          "heat_stored", [](const AnyHeating& self) { return state(self).ledger.stored; },
+          "Heat that the blocks hold more than at the start [J].");
+}
+
+}  // namespace scree::python

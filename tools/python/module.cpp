@@ -1,0 +1,37 @@
+#include "tools/python/bindings.h"
+
+#include "engine/base/check.h"
+#include "engine/base/threads.h"
+#include "engine/base/version.h"
+
+namespace scree::python {
+
+namespace py = pybind11;
+
+void check_signals() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+void bind_errors(py::module_& module) {
+  py::register_exception<InputError>(module, "InputError", PyExc_ValueError).doc() =
+      "What a scene or a file says is wrong: one line for everything that is, with place, key, value and rule.";
+  py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
+      "A computation that could not go on although its input was accepted.";
+}
+
+}  // namespace scree::python
+
+PYBIND11_MODULE(scree, module) {
+  namespace py = pybind11;
+  module.doc() = "Heat in heaps: settle piles of blocks and heat them. SI units, temperatures in kelvin.";
+  module.attr("__version__") = scree::version();
+  module.def(
+      "use_threads", [](int count) { scree::use_threads(std::max(1, count)); }, py::arg("count"),
+      "Computes with so many threads from here on. No result depends on it.");
+  scree::python::bind_errors(module);
+  scree::python::bind_scene(module);
+  scree::python::bind_packing(module);
+  scree::python::bind_heating(module);
+  scree::python::bind_run(module);
+}

@@ -1,0 +1,84 @@
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+
+#include "tools/python/bindings.h"
+#include "tools/scene/read_scene.h"
+
+namespace scree::python {
+
+namespace py = pybind11;
+
+namespace {
+
+// A Python value as a scene file would have it. JSON is YAML, and its texts need no quotes here.
+std::string as_yaml(const py::handle& value) {
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  return py::module_::import("json").attr("dumps")(value).cast<std::string>();
+}
+
+std::vector<std::string> overrides_of(const py::dict& changes) {
+  std::vector<std::string> overrides;
+  for (const auto& [key, value] : changes) overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), as_yaml(value)));
+  return overrides;
+}
+
+SceneSource read(SceneSource source) {
+  source.scene = source.text.empty() ? read_scene(source.file, source.overrides)
+                                     : read_scene_text(source.text, source.file, source.overrides);
+  return source;
+}
+
+SceneSource changed(const SceneSource& source, const py::dict& changes) {
+  SceneSource other = source;
+  for (std::string& assignment : overrides_of(changes)) other.overrides.push_back(std::move(assignment));
+  return read(std::move(other));
+}
+
+std::vector<std::string> body_names(const SceneSource& source) {
+  std::vector<std::string> names;
+  for (const mesh::BodySpec& body : source.scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+std::vector<std::string> probe_names(const SceneSource& source) {
+  std::vector<std::string> names;
+  for (const output::ProbeSpec& probe : source.scene.probes) names.push_back(probe.name);
+  return names;
+}
+
+std::string file_name(const py::object& path) {
+  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+  py::class_<SceneSource>(module, "Scene",
+                          "A scene, checked. It never changes: `changed` gives another. `scree keys` prints every key.")
+      .def(py::init([](const py::object& file, const py::dict& changes) {
+             return read({file_name(file), "", overrides_of(changes), {}});
+           }),
+           py::arg("file"), py::arg("changes") = py::dict(),
+           "Reads a scene file, with changes such as {'heat.until': '2 h', 'contact.stiffness_factor': 100}.")
+      .def_static(
+          "from_text",
+          [](const std::string& text, const py::dict& changes, const py::object& folder) {
+            return read({file_name(folder), text, overrides_of(changes), {}});
+          },
+          py::arg("text"), py::arg("changes") = py::dict(), py::arg("folder") = ".",
+          "A scene from its YAML text; paths in it are relative to the folder.")
+      .def("changed", &changed, py::arg("changes"),
+           "The same scene with other values; None takes a key away. Raises InputError for what does not suit.")
+      .def_property_readonly(
+          "title", [](const SceneSource& source) { return source.scene.title; }, "What the scene shows.")
+      .def_property_readonly(
+          "dimension", [](const SceneSource& source) { return source.scene.dimension; }, "2 or 3.")
+      .def_property_readonly("bodies", &body_names, "Names of the bodies, in the scene's order.")
+      .def_property_readonly("probes", &probe_names, "Names of the probes.")
+      .def_property_readonly(
+          "effective", [](const SceneSource& source) { return source.scene.effective; },
+          "The scene as YAML with every default filled in.");
+}
+
+}  // namespace scree::python

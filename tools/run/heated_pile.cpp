@@ -1,0 +1,67 @@
+#include "tools/run/heated_pile.h"
+
+#include <fmt/format.h>
+
+#include "contact/find_contacts.h"
+#include "engine/output/stored_field.h"
+#include "tools/run/keys.h"
+
+namespace scree::run {
+
+namespace {
+
+// The temperatures of an earlier run, if the scene starts from them.
+template <int dim>
+std::optional<Eigen::VectorXd> earlier_temperatures(const Scene& scene, const mesh::BlockMesh<dim>& mesh,
+                                                    const std::function<void(const std::string&)>& note) {
+  if (!scene.initial_field) return std::nullopt;
+  const output::NodalField field = output::read_stored(*scene.initial_field, mesh);
+  if (note) {
+    note(field.same_mesh ? std::string("heat: starts from the temperatures of an earlier run, node by node")
+                         : fmt::format("heat: starts from temperatures interpolated in the mesh of an earlier "
+                                       "run; {} nodes lay outside",
+                                       field.moved));
+  }
+  return field.values;
+}
+
+}  // namespace
+
+template <int dim>
+HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
+                            const std::function<void(const std::string&)>& note) {
+  HeatedPile<dim> pile;
+  pile.mesh = packing::placed_mesh(packing);
+  pile.probes = output::locate_probes(pile.mesh, scene.probes);
+  pile.start = earlier_temperatures(scene, pile.mesh, note);
+  pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
+  return pile;
+}
+
+template <int dim>
+void join(const Scene& scene, HeatedPile<dim>& pile) {
+  const thermal::JointOptions& joint = scene.heat->joint;
+  if (pile.mesh.blocks.size() > 1) {
+    pile.contacts = contact::find_contacts(pile.mesh, thermal::contact_search(joint, pile.mesh.bodies, *scene.contact));
+    thermal::check_rules(joint, pile.mesh, pile.contacts);
+  }
+  pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint);
+}
+
+template <int dim>
+thermal::HeatModel heat_model(const Scene& scene, const HeatedPile<dim>& pile) {
+  thermal::HeatOptions options = *scene.heat;
+  options.initial_field = pile.start;
+  return thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, options);
+}
+
+#define SCREE_INSTANTIATE(dim)                                                               \
+  template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,      \
+                                            const std::function<void(const std::string&)>&); \
+  template void join<dim>(const Scene&, HeatedPile<dim>&);                                   \
+  template thermal::HeatModel heat_model<dim>(const Scene&, const HeatedPile<dim>&);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
+
+}  // namespace scree::run

@@ -1,0 +1,41 @@
+// A pile ready to be heated: blocks in their places, what joins them, probes, and the temperatures it starts from.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/contact_set.h"
+#include "engine/output/probes.h"
+#include "engine/packing/packing.h"
+#include "thermal/heat_model.h"
+#include "thermal/joint_conduction.h"
+#include "tools/scene/scene.h"
+
+namespace scree::run {
+
+template <int dim>
+struct HeatedPile {
+  mesh::BlockMesh<dim> mesh;  // as placed
+  contact::ContactSet<dim> contacts;
+  thermal::JointConduction<dim> joints;
+  std::vector<output::Probe<dim>> probes;
+  std::optional<Eigen::VectorXd> start;  // temperatures of an earlier run, if the scene starts from them [K]
+  std::string key;                       // of the heat stage
+};
+
+// Without its joints yet. `note` is told where the temperatures come from, if from an earlier run.
+template <int dim>
+HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
+                            const std::function<void(const std::string&)>& note = {});
+
+// Finds where its blocks touch, and what conducts there.
+template <int dim>
+void join(const Scene& scene, HeatedPile<dim>& pile);
+
+// The balance of heat of a joined pile.
+template <int dim>
+thermal::HeatModel heat_model(const Scene& scene, const HeatedPile<dim>& pile);
+
+}  // namespace scree::run
