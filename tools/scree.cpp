@@ -1,5 +1,5 @@
-// The command: run, resume, check, keys, schema, render, report, accuracy, study, plot. Exit status: 0 complete and sound; 1
-// the run was not; 2 bad input.
+// The command: run, resume, check, render, report, accuracy, study, plot, keys, schema, completion, manual. Exit status: 0
+// complete and sound; 1 the run was not; 2 bad input.
 
 #include <cstdio>
 #include <exception>
@@ -17,6 +17,8 @@
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
 #include "tools/accuracy/accuracy_command.h"
+#include "tools/command_line/completion.h"
+#include "tools/command_line/manual.h"
 #include "tools/render_command.h"
 #include "tools/report/report_command.h"
 #include "tools/run/run_scene.h"
@@ -35,7 +37,9 @@ struct Arguments {
   std::string directory;
   std::vector<std::string> overrides;
   std::string prefix;
+  std::string shell;
   bool quiet = false;
+  bool json = false;
   bool error_estimate = false;
   int threads = scree::available_processors();
   scree::RenderArguments render;
@@ -60,17 +64,31 @@ scree::run::SpaceErrors space_errors(const Arguments& arguments) {
   return arguments.error_estimate ? scree::run::SpaceErrors::estimated : scree::run::SpaceErrors::left_out;
 }
 
+scree::ProgressMode progress_mode(const Arguments& arguments) {
+  return arguments.json ? scree::ProgressMode::json : scree::progress_mode(arguments.quiet);
+}
+
+// A program that follows the run is told of a bad scene in its own way, too.
+scree::Scene read_scene(const std::string& file, const Arguments& arguments, scree::Progress& progress) {
+  try {
+    return scree::read_scene(file, arguments.overrides);
+  } catch (const scree::InputError& error) {
+    if (arguments.json) progress.end({"bad_input", 2, "", {error.what()}});
+    throw;
+  }
+}
+
 int run(const Arguments& arguments) {
-  const scree::Scene scene = scree::read_scene(arguments.scene, arguments.overrides);
-  scree::Progress progress(scree::progress_mode(arguments.quiet));
+  scree::Progress progress(progress_mode(arguments));
+  const scree::Scene scene = read_scene(arguments.scene, arguments, progress);
   const std::string directory = arguments.directory.empty() ? default_directory(arguments.scene) : arguments.directory;
   return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress, space_errors(arguments));
 }
 
 int resume(const Arguments& arguments) {
   const RunFiles files{arguments.directory};
-  const scree::Scene scene = scree::read_scene(files.scene(), {});
-  scree::Progress progress(scree::progress_mode(arguments.quiet));
+  scree::Progress progress(progress_mode(arguments));
+  const scree::Scene scene = read_scene(files.scene().string(), arguments, progress);
   return scree::run::run_scene(scene, files, scree::run::Start::resume, progress, space_errors(arguments));
 }
 
@@ -85,6 +103,20 @@ int check(const Arguments& arguments) {
   return 0;
 }
 
+// What the program knows of itself: its keys and its options.
+void print_reference(const CLI::App& app, const Arguments& arguments) {
+  const auto commands = scree::command_line::command_table(app);
+  std::string text;
+  if (app.got_subcommand("keys")) text = scree::key_reference(scree::scene_keys(), arguments.prefix);
+  if (app.got_subcommand("schema")) text = scree::key_schema(scree::scene_keys(), "Scree scene");
+  if (app.got_subcommand("manual")) text = scree::command_line::manual(commands, std::string(scree::version()));
+  if (app.got_subcommand("completion")) {
+    text = arguments.shell == "zsh" ? scree::command_line::zsh_completion(commands)
+                                    : scree::command_line::bash_completion(commands);
+  }
+  fmt::print("{}", text);
+}
+
 int dispatch(CLI::App& app, const Arguments& arguments) {
   scree::use_threads(arguments.threads);
   if (app.got_subcommand("run")) return run(arguments);
@@ -95,22 +127,20 @@ int dispatch(CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("accuracy")) return scree::accuracy::run(arguments.accuracy);
   if (app.got_subcommand("study")) return scree::study::run(arguments.study);
   if (app.got_subcommand("plot")) return scree::study::plot_command(arguments.plot);
-  const scree::KeyTable& keys = scree::scene_keys();
-  fmt::print(
-      "{}", app.got_subcommand("keys") ? scree::key_reference(keys, arguments.prefix) : scree::key_schema(keys, "Scree scene"));
+  print_reference(app, arguments);
   return 0;
 }
 
-void declare(CLI::App& app, Arguments& arguments) {
-  app.set_version_flag("--version", scree::version_text());
-  app.require_subcommand(1);
+void declare_running(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "run a scene");
   add_scene(*run, arguments);
   run->add_option("--out", arguments.directory, "where the results go (default: out/ and the scene's name)");
   CLI::App* resume = app.add_subcommand("resume", "go on with an interrupted run from its last finished time");
   resume->add_option("directory", arguments.directory, "the interrupted run's --out")->required();
   for (CLI::App* command : {run, resume}) {
-    command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+    CLI::Option* quiet = command->add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+    command->add_flag("--json", arguments.json, "progress for a program: one JSON object a line on standard output")
+        ->excludes(quiet);
     command->add_flag("--error-estimate", arguments.error_estimate, "estimate the space error of every element, too");
     command
         ->add_option("--threads", arguments.threads,
@@ -119,9 +149,23 @@ void declare(CLI::App& app, Arguments& arguments) {
   }
   CLI::App* check = app.add_subcommand("check", "find everything wrong or suspicious in a scene without running it");
   add_scene(*check, arguments);
+}
+
+void declare_reference(CLI::App& app, Arguments& arguments) {
   CLI::App* keys = app.add_subcommand("keys", "print every key of a scene, its unit, default and rule");
   keys->add_option("prefix", arguments.prefix, "only keys that begin with this, such as heat");
   app.add_subcommand("schema", "print the JSON schema of a scene, for editors");
+  app.add_subcommand("completion", "print the completion of this command for a shell")
+      ->add_option("shell", arguments.shell, "bash or zsh")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh"}));
+  app.add_subcommand("manual", "print the manual page of this command, for man");
+}
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.set_version_flag("--version", scree::version_text());
+  app.require_subcommand(1);
+  declare_running(app, arguments);
   scree::declare_render(*app.add_subcommand("render", "draw a picture of a run, without a screen"), arguments.render);
   scree::report::declare_report(*app.add_subcommand("report", "one page about a run or a study, for a browser"),
                                 arguments.report);
@@ -129,6 +173,7 @@ void declare(CLI::App& app, Arguments& arguments) {
                            arguments.accuracy);
   scree::study::declare(*app.add_subcommand("study", "make many runs of a scene and one table of them"), arguments.study);
   scree::study::declare_plot(*app.add_subcommand("plot", "draw one column of a study's table against another"), arguments.plot);
+  declare_reference(app, arguments);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace scree {
 
@@ -19,6 +20,9 @@ namespace {
 
 constexpr double terminal_interval = 0.1;  // between two drawings [s]
 constexpr double lines_interval = 10;      // between two lines of a log [s]
+constexpr double json_interval = 1;        // between two objects [s]
+
+using Json = nlohmann::ordered_json;
 
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -47,7 +51,8 @@ std::string format_duration(double seconds) {
   return fmt::format("{:.0f} h {:02.0f} min", std::floor(whole / 3600), std::floor(std::fmod(whole, 3600) / 60));
 }
 
-Progress::Progress(ProgressMode mode) : Progress(mode, std::cerr, steady_seconds, terminal_width()) {}
+Progress::Progress(ProgressMode mode)
+    : Progress(mode, mode == ProgressMode::json ? std::cout : std::cerr, steady_seconds, terminal_width()) {}
 
 Progress::Progress(ProgressMode mode, std::ostream& out, Clock clock, int width)
     : mode_(mode), out_(out), clock_(std::move(clock)), width_(width) {}
@@ -61,6 +66,7 @@ void Progress::start(const std::string& stage, const std::string& text) {
   stage_ = stage;
   started_ = seen_ = shown_ = clock_();
   fraction_ = rate_ = 0;
+  if (mode_ == ProgressMode::json) tell_start(text);
   if (mode_ == ProgressMode::lines) print(fmt::format("{}: {}", stage_, text));
   if (mode_ == ProgressMode::terminal) draw(text);
 }
@@ -78,19 +84,50 @@ void Progress::update(double fraction, const std::string& text) {
     seen_ = now;
     fraction_ = fraction;
   }
-  const double interval = mode_ == ProgressMode::terminal ? terminal_interval : lines_interval;
+  const double interval = mode_ == ProgressMode::terminal ? terminal_interval
+                          : mode_ == ProgressMode::json   ? json_interval
+                                                          : lines_interval;
   if (now - shown_ < interval) return;
   shown_ = now;
-  draw(text);
+  mode_ == ProgressMode::json ? tell_update(text) : draw(text);
 }
 
 void Progress::finish(const std::string& text) {
+  if (mode_ == ProgressMode::json) return tell_finish(text);
   print(fmt::format("{}: done in {}{}{}", stage_, format_duration(clock_() - started_), text.empty() ? "" : ", ", text));
-  stage_.clear();
 }
 
 void Progress::note(const std::string& text) {
+  if (mode_ == ProgressMode::json) return print(Json{{"event", "note"}, {"text", text}}.dump());
   print(text);
+}
+
+void Progress::end(const Ending& ending) {
+  if (mode_ == ProgressMode::json) {
+    Json json{
+        {"event", "end"}, {"status", ending.status}, {"exit_status", ending.exit_status}, {"directory", ending.directory}};
+    if (!ending.reasons.empty()) json["reasons"] = ending.reasons;
+    return print(json.dump());
+  }
+  const char* no_colour = std::getenv("NO_COLOR");
+  const bool colour = mode_ == ProgressMode::terminal && (no_colour == nullptr || *no_colour == '\0');
+  const std::string status =
+      colour ? fmt::format("\x1b[{}m{}\x1b[0m", ending.exit_status == 0 ? 32 : 31, ending.status) : ending.status;
+  print(ending.directory.empty() ? status : fmt::format("{}: {}", status, ending.directory));
+}
+
+void Progress::tell_start(const std::string& text) {
+  print(Json{{"event", "start"}, {"stage", stage_}, {"text", text}}.dump());
+}
+
+void Progress::tell_update(const std::string& text) {
+  Json json{{"event", "progress"}, {"stage", stage_}, {"fraction", fraction_}, {"text", text}};
+  if (rate_ > 0) json["seconds_left"] = std::max(0.0, 1 - fraction_) / rate_;
+  print(json.dump());
+}
+
+void Progress::tell_finish(const std::string& text) {
+  print(Json{{"event", "finish"}, {"stage", stage_}, {"seconds", clock_() - started_}, {"text", text}}.dump());
 }
 
 std::string Progress::time_left() const {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace scree {
 
@@ -11,6 +12,7 @@ enum class ProgressMode {
   terminal,  // one line that renews itself
   lines,     // for a log: a line at the start and end of a stage and every ten seconds between
   quiet,     // nothing
+  json,      // for a program: one JSON object a line, an update each second
 };
 
 // `quiet` if asked for, `terminal` if standard error is one that can erase a line, else `lines`.
@@ -19,12 +21,19 @@ ProgressMode progress_mode(bool quiet);
 // "8 s", "3 min 20 s", "2 h 05 min".
 std::string format_duration(double seconds);
 
+struct Ending {
+  std::string status;
+  int exit_status = 0;
+  std::string directory;
+  std::vector<std::string> reasons;  // why the exit status is not 0; only JSON tells them
+};
+
 // One stage at a time: start, any number of updates, finish. A stage left by an exception is simply not finished.
 class Progress {
  public:
   using Clock = std::function<double()>;  // [s]
 
-  // Writes to standard error.
+  // Writes to standard error, JSON to standard output.
   explicit Progress(ProgressMode mode);
   Progress(ProgressMode mode, std::ostream& out, Clock clock, int width);
   Progress(const Progress&) = delete;
@@ -37,9 +46,15 @@ class Progress {
   void finish(const std::string& text);
   // A remark that stays, within a stage or between two.
   void note(const std::string& text);
+  // How the run ended, after its last stage; on a terminal the status is green or red unless NO_COLOR is set and not empty.
+  void end(const Ending& ending);
 
  private:
   void draw(const std::string& text);
+  // In JSON: `event` and what it is about.
+  void tell_start(const std::string& text);
+  void tell_update(const std::string& text);
+  void tell_finish(const std::string& text);
   void print(const std::string& line);
   void erase();
   [[nodiscard]] std::string time_left() const;

@@ -1,9 +1,11 @@
 #include "engine/base/progress.h"
 
+#include <cstdlib>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace scree {
 namespace {
@@ -43,6 +45,47 @@ TEST(Progress, ATerminalLineRenewsItselfAndEndsAsAWholeLine) {
   watched.progress.update(0.25, "step 1");
   watched.progress.finish("");
   EXPECT_EQ(watched.out.str(), "heat: 0 %, begins\r\x1b[Kheat: 25 %, 6 s left, step 1\r\x1b[Kheat: done in 2 s\n");
+}
+
+TEST(Progress, AProgramGetsAnObjectALineAndAnUpdateASecond) {
+  Watched watched(ProgressMode::json);
+  watched.progress.start("heat", "a \"quoted\" word");
+  for (int i = 1; i <= 8; ++i) {
+    watched.now += 0.5;
+    watched.progress.update(i / 16.0, "step");
+  }
+  watched.progress.finish("25 steps");
+  watched.progress.note("mind\nthis");
+  watched.progress.end({"not_converged", 1, "out/pile", {"why"}});
+  std::vector<nlohmann::json> objects;
+  std::istringstream lines(watched.out.str());
+  for (std::string line; std::getline(lines, line);) objects.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(objects.size(), 8U);
+  EXPECT_EQ(objects[0], (nlohmann::json{{"event", "start"}, {"stage", "heat"}, {"text", "a \"quoted\" word"}}));
+  EXPECT_EQ(objects[4]["event"], "progress");
+  EXPECT_EQ(objects[4]["fraction"], 0.5);
+  EXPECT_NEAR(objects[4]["seconds_left"], 4, 0.01);
+  EXPECT_EQ(objects[5]["seconds"], 4);
+  EXPECT_EQ(objects[6]["text"], "mind\nthis");
+  EXPECT_EQ(
+      objects[7],
+      (nlohmann::json{
+          {"event", "end"}, {"status", "not_converged"}, {"exit_status", 1}, {"directory", "out/pile"}, {"reasons", {"why"}}}));
+}
+
+TEST(Progress, TheEndIsColouredOnATerminalOnlyAndNotWhereNobodyWantsColours) {
+  const auto end = [](ProgressMode mode, int exit_status) {
+    Watched watched(mode);
+    watched.progress.end({"ended", exit_status, "out", {}});
+    return watched.out.str();
+  };
+  ::unsetenv("NO_COLOR");
+  EXPECT_EQ(end(ProgressMode::terminal, 0), "\x1b[32mended\x1b[0m: out\n");
+  EXPECT_EQ(end(ProgressMode::terminal, 1), "\x1b[31mended\x1b[0m: out\n");
+  EXPECT_EQ(end(ProgressMode::lines, 1), "ended: out\n");
+  ::setenv("NO_COLOR", "1", 1);
+  EXPECT_EQ(end(ProgressMode::terminal, 1), "ended: out\n");
+  ::unsetenv("NO_COLOR");
 }
 
 TEST(Progress, ManyUpdatesAMomentApartDrawLittle) {

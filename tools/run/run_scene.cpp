@@ -100,7 +100,7 @@ int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& 
   add_stages(summary, context.costs);
   write_summary(files, summary);
   say_costs(context.costs, progress);
-  progress.note(fmt::format("{}: {}", ending.status, files.directory.string()));
+  progress.end({ending.status, ending.code, files.directory.string(), ending.reasons});
   for (const std::string& reason : ending.reasons) fmt::print(stderr, "scree: {}\n", reason);
   return ending.code;
 }
