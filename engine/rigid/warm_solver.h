@@ -11,6 +11,9 @@ class WarmSolver final : public btSequentialImpulseConstraintSolver {
   btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
                                         int manifold_count, btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info, btIDebugDraw* draw) override;
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
+                                             int manifold_count, btTypedConstraint** constraints, int constraint_count,
+                                             const btContactSolverInfo& info, btIDebugDraw* draw) override;
 };
 
 }  // namespace scree::rigid

@@ -1,0 +1,47 @@
+// The contacts of a step as the solver's iterations go through them: what an iteration needs and nothing else, one after the
+// other in memory. Bullet's own rows are twice as long, and most of an iteration is waiting for them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scree::rigid {
+
+// A body's change of velocity in this step, or the one that only undoes overlaps.
+struct BodyChange {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // [m/s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // [1/s]
+  double inverse_mass = 0;                            // [1/kg]
+};
+
+// One impulse along one direction between two bodies: the second gets its reverse.
+struct Row {
+  Eigen::Vector3d direction;
+  std::array<Eigen::Vector3d, 2> moment;  // of the direction about the bodies' centres; minus that of the second
+  std::array<Eigen::Vector3d, 2> turn;    // change of angular velocity by a unit impulse
+  double wanted = 0;                      // change of the approach times `scale`, impulse units
+  double softness = 0;
+  double scale = 0;  // impulse per change of approach
+  double applied = 0;
+};
+
+struct ContactRow {
+  Row normal;
+  std::array<Row, 2> friction;
+  double coefficient = 0;
+  std::array<int, 2> bodies{-1, -1};  // -1: fixed
+};
+
+struct OverlapRow {
+  Row normal;
+  std::array<int, 2> bodies{-1, -1};
+};
+
+// One pass over all contacts: normal impulse, then friction within what it allows (sequential impulses). Rounds as Bullet's
+// loops do.
+void solve_contacts(std::vector<ContactRow>& rows, std::vector<BodyChange>& bodies);
+void solve_overlaps(std::vector<OverlapRow>& rows, std::vector<BodyChange>& bodies);
+
+}  // namespace scree::rigid
