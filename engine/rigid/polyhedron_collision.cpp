@@ -1,6 +1,7 @@
 #include "engine/rigid/polyhedron_collision.h"
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -9,7 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
+#include "engine/base/chunks.h"
 #include "engine/rigid/contact_points.h"
 #include "engine/rigid/polyhedron_shape.h"
 
@@ -62,7 +66,6 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
     if (manifold_ != nullptr) manifolds.push_back(manifold_);
   }
 
- private:
   struct Pair {
     const btCollisionObjectWrapper* first;
     const btCollisionObjectWrapper* second;
@@ -70,8 +73,18 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
     double time_step;  // [s]
   };
 
+  [[nodiscard]] Pair pair_of(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
+                             double time_step) const {
+    return {&first, &second, ranges_.near + fastest_approach(first, second) * time_step, time_step};
+  }
+  // Moves the points with the pair, or returns new ones. Touches nothing but its own pair, so that many may look at once.
+  [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
+  // Takes over new points. One at a time, for manifolds come from a common pool.
+  void take(const Pair& pair, const ContactPoints& contact);
+
+ private:
   [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative) const;
-  void evaluate(const Pair& pair);
+  [[nodiscard]] ContactPoints evaluate(const Pair& pair);
   void write_points(const Pair& pair, const ContactPoints& contact);
   void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
@@ -89,16 +102,27 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
 
 void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                                            const btDispatcherInfo& info, btManifoldResult* result) {
-  const double reach = ranges_.near + fastest_approach(*first, *second) * info.m_timeStep;
-  const Pair pair{first, second, reach, info.m_timeStep};
-  const btTransform relative = first->getWorldTransform().inverseTimes(second->getWorldTransform());
-  if (still_valid(pair, relative)) {
-    if (manifold_ != nullptr) move_points(pair, false);
-  } else {
-    relative_ = relative;
-    evaluate(pair);
-  }
+  const Pair pair = pair_of(*first, *second, info.m_timeStep);
+  if (const auto contact = look(pair)) take(pair, *contact);
   if (manifold_ != nullptr) result->setPersistentManifold(manifold_);
+}
+
+std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
+  const btTransform relative = pair.first->getWorldTransform().inverseTimes(pair.second->getWorldTransform());
+  if (!still_valid(pair, relative)) {
+    relative_ = relative;
+    return evaluate(pair);
+  }
+  if (manifold_ != nullptr) move_points(pair, false);
+  return std::nullopt;
+}
+
+void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
+  if (contact.count == 0) {
+    drop_manifold();
+  } else {
+    write_points(pair, contact);
+  }
 }
 
 bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) const {
@@ -110,7 +134,7 @@ bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relat
   return moved < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
 }
 
-void PolyhedronCollision::evaluate(const Pair& pair) {
+ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
   static thread_local PlacedPiece a;
   static thread_local PlacedPiece b;
   place(static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()), pair.first->getWorldTransform(), a);
@@ -120,13 +144,8 @@ void PolyhedronCollision::evaluate(const Pair& pair) {
   if (evaluated_reach_ < 0 || separation_.distance <= enough)
     separation_ = packing::separation(a, b, enough, ranges_.face_bias);
   evaluated_reach_ = pair.reach;
-  ContactPoints contact;
-  if (separation_.distance <= pair.reach) contact = contact_points(a, b, separation_, pair.reach);
-  if (contact.count == 0) {
-    drop_manifold();
-  } else {
-    write_points(pair, contact);
-  }
+  if (separation_.distance > pair.reach) return {};
+  return contact_points(a, b, separation_, pair.reach);
 }
 
 void PolyhedronCollision::write_points(const Pair& pair, const ContactPoints& contact) {
@@ -240,6 +259,24 @@ class CreatePolyhedronCollision final : public btCollisionAlgorithmCreateFunc {
   ContactRanges ranges_;
 };
 
+// The two bodies of a pair as Bullet's algorithms take them.
+struct WrappedPair {
+  explicit WrappedPair(const btBroadphasePair& pair) : first(wrap(pair.m_pProxy0)), second(wrap(pair.m_pProxy1)) {}
+  [[nodiscard]] bool of_polyhedra() const {
+    return first.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE &&
+           second.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE;
+  }
+
+  btCollisionObjectWrapper first;
+  btCollisionObjectWrapper second;
+
+ private:
+  static btCollisionObjectWrapper wrap(const btBroadphaseProxy* proxy) {
+    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+    return {nullptr, object->getCollisionShape(), object, object->getWorldTransform(), -1, -1};
+  }
+};
+
 btDefaultCollisionConstructionInfo pools(int blocks) {
   btDefaultCollisionConstructionInfo info;
   // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
@@ -250,6 +287,54 @@ btDefaultCollisionConstructionInfo pools(int blocks) {
 }
 
 }  // namespace
+
+Dispatcher::Dispatcher(CollisionConfiguration& configuration) : btCollisionDispatcher(&configuration) {
+  setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+}
+
+void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info, btDispatcher*) {
+  struct News {
+    int pair;
+    std::optional<ContactPoints> contact;  // nothing: left to Bullet
+  };
+  btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
+  const auto count = static_cast<std::size_t>(pairs.size());
+  for (int i = 0; i < pairs.size(); ++i) add_algorithm(pairs[i]);
+  std::vector<std::vector<News>> news(chunk_count(count));
+  for_chunks(count, [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const auto number = static_cast<int>(i);
+      const WrappedPair wrapped(pairs[number]);
+      if (pairs[number].m_algorithm == nullptr) continue;
+      if (!wrapped.of_polyhedra()) {
+        news[chunk.number].push_back({number, std::nullopt});
+        continue;
+      }
+      auto& algorithm = static_cast<PolyhedronCollision&>(*pairs[number].m_algorithm);
+      const auto contact = algorithm.look(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep));
+      if (contact) news[chunk.number].push_back({number, contact});
+    }
+  });
+  for (const auto& part : news) {
+    for (const auto& [number, contact] : part) {
+      const WrappedPair wrapped(pairs[number]);
+      if (contact) {
+        auto& algorithm = static_cast<PolyhedronCollision&>(*pairs[number].m_algorithm);
+        algorithm.take(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *contact);
+      } else {
+        btManifoldResult result(&wrapped.first, &wrapped.second);
+        pairs[number].m_algorithm->processCollision(&wrapped.first, &wrapped.second, info, &result);
+      }
+    }
+  }
+}
+
+void Dispatcher::add_algorithm(btBroadphasePair& pair) {
+  if (pair.m_algorithm != nullptr) return;
+  const WrappedPair wrapped(pair);
+  if (!needsCollision(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject())) return;
+  pair.m_algorithm = findAlgorithm(&wrapped.first, &wrapped.second, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+}
 
 CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, int blocks)
     : btDefaultCollisionConfiguration(pools(blocks)), create_(std::make_unique<CreatePolyhedronCollision>(ranges)) {}

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 
 #include "engine/packing/separation.h"
@@ -27,6 +28,18 @@ class CollisionConfiguration final : public btDefaultCollisionConfiguration {
 
  private:
   std::unique_ptr<btCollisionAlgorithmCreateFunc> create_;
+};
+
+// Looks at the pairs of polyhedra on all threads, then takes over what is new in the order of the pairs: the same contacts in
+// the same order for any number of threads.
+class Dispatcher final : public btCollisionDispatcher {
+ public:
+  explicit Dispatcher(CollisionConfiguration& configuration);
+  void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
+                                 btDispatcher* dispatcher) override;
+
+ private:
+  void add_algorithm(btBroadphasePair& pair);
 };
 
 }  // namespace scree::rigid

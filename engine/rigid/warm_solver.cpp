@@ -90,13 +90,13 @@ btScalar WarmSolver::solveGroupCacheFriendlyIterations(btCollisionObject** /*bod
   btConstraintArray& contacts = m_tmpSolverContactConstraintPool;
   btConstraintArray& frictions = m_tmpSolverContactFrictionConstraintPool;
   undo_overlaps(contacts, info.m_numIterations, m_tmpSolverBodyPool);
-  std::vector<ContactRow> rows(contacts.size());
+  rows_.resize(contacts.size());
   for (int i = 0; i < contacts.size(); ++i) {
     const btSolverConstraint& contact = contacts[i];
-    rows[i] = {row_of(contact),
-               {row_of(frictions[contact.m_frictionIndex]), row_of(frictions[contact.m_frictionIndex + 1])},
-               contact.m_friction,
-               bodies_of(contact, m_tmpSolverBodyPool)};
+    rows_[i] = {row_of(contact),
+                {row_of(frictions[contact.m_frictionIndex]), row_of(frictions[contact.m_frictionIndex + 1])},
+                contact.m_friction,
+                bodies_of(contact, m_tmpSolverBodyPool)};
   }
   std::vector<BodyChange> changes(m_tmpSolverBodyPool.size());
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -104,15 +104,15 @@ btScalar WarmSolver::solveGroupCacheFriendlyIterations(btCollisionObject** /*bod
     changes[i] = {from_bullet(body.internalGetDeltaLinearVelocity()), from_bullet(body.internalGetDeltaAngularVelocity()),
                   body.m_invMass.x()};
   }
-  for (int i = 0; i < info.m_numIterations; ++i) solve_contacts(rows, changes);
+  for (int i = 0; i < info.m_numIterations; ++i) solve_contacts(rows_, changes);
   for (std::size_t i = 0; i < changes.size(); ++i) {
     btSolverBody& body = m_tmpSolverBodyPool[static_cast<int>(i)];
     body.internalGetDeltaLinearVelocity() = to_bullet(changes[i].linear);
     body.internalGetDeltaAngularVelocity() = to_bullet(changes[i].angular);
   }
   for (int i = 0; i < contacts.size(); ++i) {
-    contacts[i].m_appliedImpulse = rows[i].normal.applied;
-    for (int k = 0; k < 2; ++k) frictions[contacts[i].m_frictionIndex + k].m_appliedImpulse = rows[i].friction[k].applied;
+    contacts[i].m_appliedImpulse = rows_[i].normal.applied;
+    for (int k = 0; k < 2; ++k) frictions[contacts[i].m_frictionIndex + k].m_appliedImpulse = rows_[i].friction[k].applied;
   }
   return 0;
 }

@@ -1,7 +1,11 @@
 // Bullet's sequential-impulse solver, starting from the friction of the last step as well as from its normal impulses.
 #pragma once
 
+#include <vector>
+
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include "engine/rigid/contact_rows.h"
 
 namespace scree::rigid {
 
@@ -14,6 +18,9 @@ class WarmSolver final : public btSequentialImpulseConstraintSolver {
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
                                              int manifold_count, btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* draw) override;
+
+ private:
+  std::vector<ContactRow> rows_;  // kept for their memory
 };
 
 }  // namespace scree::rigid

@@ -89,11 +89,9 @@ double density_of(const Material& material) {
 
 struct World::Bullet {
   Bullet(const ContactRanges& ranges, int blocks)
-      : configuration(ranges, blocks), dispatcher(&configuration), world(&dispatcher, &broadphase, &solver, &configuration) {
+      : configuration(ranges, blocks), dispatcher(configuration), world(&dispatcher, &broadphase, &solver, &configuration) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;  // added to every bounding box
-    dispatcher.setDispatcherFlags(dispatcher.getDispatcherFlags() &
-                                  ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     btContactSolverInfo& info = world.getSolverInfo();
     info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
                         SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION |
@@ -107,7 +105,7 @@ struct World::Bullet {
   }
 
   CollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher;
+  Dispatcher dispatcher;
   btDbvtBroadphase broadphase;
   WarmSolver solver;
   btDiscreteDynamicsWorld world;
@@ -200,6 +198,12 @@ void World::release(std::size_t count) {
 }
 
 World::~World() {
+  // Bullet would search all pairs for those of each body that it removes.
+  btOverlappingPairCache& cache = *bullet_->broadphase.getOverlappingPairCache();
+  for (auto& pairs = cache.getOverlappingPairArray(); pairs.size() > 0;) {
+    const btBroadphasePair& last = pairs[pairs.size() - 1];
+    cache.removeOverlappingPair(last.m_pProxy0, last.m_pProxy1, &bullet_->dispatcher);
+  }
   for (Item& item : items_) bullet_->world.removeRigidBody(item.body.get());
 }
 
