@@ -1,4 +1,5 @@
 #include "engine/rigid/settle.h"
+#include "engine/base/threads.h"
 
 #include <gtest/gtest.h>
 #include <xxhash.h>
@@ -216,6 +217,26 @@ TEST(Settle, TheSameHeapSettlesToTheSameBits) {
   const auto first = settle(heap(), material(0.6), for_time(1));
   const auto second = settle(heap(), material(0.6), for_time(1));
   EXPECT_EQ(hash_of(first.poses), hash_of(second.poses));
+}
+
+TEST(Settle, SettlesToTheSameBitsForAnyNumberOfThreads) {
+  // Enough pairs for every thread to look at some.
+  mesh::BlockMesh<3> mesh = plate();
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d corner(0.098 * (i % 10) - 0.5, 0.098 * (i / 10 % 10) - 0.5, 0.02 + 0.098 * (i / 100));
+    add_tetrahedron(mesh,
+                    {corner, corner + Vector3d(0.1, 0, 0), corner + Vector3d(0, 0.1, 0.01), corner + Vector3d(0.01, 0, 0.1)});
+  }
+  SettleOptions options = for_time(0.3);
+  options.iterations = 10;
+  std::vector<XXH64_hash_t> hashes;
+  for (const int threads : {1, 2, 5}) {
+    use_threads(threads);
+    hashes.push_back(hash_of(settle(mesh, material(0.6), options).poses));
+  }
+  use_threads(available_processors());
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
 }
 
 TEST(Settle, AHeapComesToRestWithoutOverlapAndSaysSo) {

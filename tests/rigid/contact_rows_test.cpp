@@ -1,0 +1,87 @@
+// Impulses against the laws they must keep: Newton's third, Coulomb's, and a contact that does not pull.
+#include "engine/rigid/contact_rows.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace scree::rigid {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double mass_first = 2, mass_second = 3;
+
+// A row through both centres, so that nothing turns: asks for the end of an approach [m/s].
+Row central(const Vector3d& direction, double approach, double inverse_mass) {
+  Row row;
+  row.direction = direction;
+  row.moment.fill(Vector3d::Zero());
+  row.turn.fill(Vector3d::Zero());
+  row.scale = 1 / inverse_mass;
+  row.wanted = approach * row.scale;
+  return row;
+}
+
+ContactRow contact(double approach, double slip, std::array<int, 2> bodies, double inverse_mass) {
+  ContactRow row;
+  row.normal = central({0, 0, 1}, approach, inverse_mass);
+  row.friction = {central({1, 0, 0}, slip, inverse_mass), central({0, 1, 0}, 0, inverse_mass)};
+  row.coefficient = 0.5;
+  row.bodies = bodies;
+  return row;
+}
+
+TEST(ContactRows, EndTheApproachOfTwoBodiesAndKeepTheirMomentum) {
+  std::vector<BodyChange> bodies(2);
+  bodies[0].inverse_mass = 1 / mass_first;
+  bodies[1].inverse_mass = 1 / mass_second;
+  std::vector<ContactRow> rows{contact(7, 0, {0, 1}, 1 / mass_first + 1 / mass_second)};
+  solve_contacts(rows, bodies);
+  EXPECT_NEAR(bodies[0].linear.z() - bodies[1].linear.z(), 7, 1e-14);
+  EXPECT_NEAR((mass_first * bodies[0].linear + mass_second * bodies[1].linear).norm(), 0, 1e-14);
+  EXPECT_NEAR(rows[0].normal.applied, 7 * mass_first * mass_second / (mass_first + mass_second), 1e-14);
+}
+
+TEST(ContactRows, LetFrictionStopASlowSlipAndOnlyBrakeAFastOne) {
+  for (const double slip : {3.0, -3.0, 4.0, -40.0}) {
+    std::vector<BodyChange> bodies(1);
+    bodies[0].inverse_mass = 1 / mass_first;
+    std::vector<ContactRow> rows{contact(7, slip, {0, -1}, 1 / mass_first)};
+    solve_contacts(rows, bodies);
+    const double most = 0.5 * 7;  // coefficient times the change along the normal
+    EXPECT_NEAR(bodies[0].linear.x(), std::clamp(slip, -most, most), 1e-14) << slip;
+  }
+}
+
+TEST(ContactRows, DoNotPullBodiesThatPart) {
+  std::vector<BodyChange> bodies(2);
+  for (auto& body : bodies) body.inverse_mass = 1;
+  std::vector<ContactRow> rows{contact(-2, 1, {0, 1}, 2)};
+  solve_contacts(rows, bodies);
+  EXPECT_EQ(rows[0].normal.applied, 0);
+  for (const auto& body : bodies) EXPECT_EQ(body.linear.norm() + body.angular.norm(), 0);
+}
+
+TEST(ContactRows, OfAChainOfBodiesConvergeToTheMotionOfOne) {
+  // A moving ball pushes a row of four at rest without rebound: all end with a fifth of its speed.
+  constexpr int balls = 5;
+  std::vector<BodyChange> bodies(balls);
+  for (auto& body : bodies) body.inverse_mass = 1;
+  std::vector<ContactRow> rows;
+  for (int i = 0; i + 1 < balls; ++i) rows.push_back(contact(i == 0 ? 1 : 0, 0, {i + 1, i}, 2));
+  for (int pass = 0; pass < 400; ++pass) solve_contacts(rows, bodies);
+  EXPECT_NEAR(1 + bodies[0].linear.z(), 1.0 / balls, 1e-9);
+  for (int i = 1; i < balls; ++i) EXPECT_NEAR(bodies[i].linear.z(), 1.0 / balls, 1e-9);
+}
+
+TEST(ContactRows, PushOverlapsApartByAsMuchAsTheyWant) {
+  std::vector<BodyChange> bodies(1);
+  bodies[0].inverse_mass = 1 / mass_first;
+  std::vector<OverlapRow> rows{{central({0, 0, 1}, 0.25, 1 / mass_first), {-1, 0}}};
+  for (int pass = 0; pass < 3; ++pass) solve_overlaps(rows, bodies);
+  EXPECT_NEAR(bodies[0].linear.z(), -0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace scree::rigid
