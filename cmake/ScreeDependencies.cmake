@@ -1,21 +1,7 @@
-# Debian 12's packages, and nothing else (tools/setup installs them).
+# What the project needs of Debian 12's packages, and nothing else (tools/setup installs them).
 
-find_package(PkgConfig REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(Boost 1.74 REQUIRED)
+include(ScreeLibraries)
 find_package(CLI11 REQUIRED)
-find_package(fmt REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(OpenMP REQUIRED COMPONENTS CXX)
-find_package(yaml-cpp REQUIRED)
-pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
-pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
-pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
-# Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
-pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
-pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
-             FiltersSources IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 
 # Debian's own Python, which has Debian's numpy, whatever else the PATH holds.
 find_program(SCREE_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
@@ -23,20 +9,6 @@ set(Python_EXECUTABLE ${SCREE_PYTHON})
 set(PYBIND11_FINDPYTHON ON)
 find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 REQUIRED)
-
-# scree_library(TARGET LIBRARY HEADER [SUFFIX]): for packages without a CMake or pkg-config file.
-function(scree_library target library header)
-  find_library(${target}_LIBRARY ${library} REQUIRED)
-  find_path(${target}_INCLUDE ${header} PATH_SUFFIXES ${ARGN} REQUIRED)
-  add_library(${target} INTERFACE)
-  target_link_libraries(${target} INTERFACE ${${target}_LIBRARY})
-  target_include_directories(${target} SYSTEM INTERFACE ${${target}_INCLUDE})
-endfunction()
-scree_library(gmsh_api gmsh gmsh.h)
-scree_library(cholmod_api cholmod cholmod.h suitesparse)
-scree_library(umfpack_api umfpack umfpack.h suitesparse)
-scree_library(hdf5_cpp hdf5_serial_cpp H5Cpp.h hdf5/serial)
-target_link_libraries(hdf5_cpp INTERFACE PkgConfig::hdf5)
 
 # Only tools/bench asks for it, and is left out without it.
 find_package(benchmark QUIET)

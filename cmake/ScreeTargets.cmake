@@ -2,7 +2,7 @@
 
 add_library(scree_flags INTERFACE)
 target_compile_features(scree_flags INTERFACE cxx_std_20)
-target_include_directories(scree_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(scree_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 # -ffp-contract=off: the same rounding whatever the processor's fused operations.
 target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
                                              -ffp-contract=off)
@@ -22,7 +22,8 @@ function(scree_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${ROOM_SOURCES})
   target_link_libraries(${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS} scree_flags)
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/scree>)
   target_compile_features(${name} PUBLIC cxx_std_20)
 endfunction()
 

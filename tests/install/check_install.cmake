@@ -40,6 +40,30 @@ if(NOT EXISTS ${prefix}/lib/python3/dist-packages/scree.pyi)
   message(FATAL_ERROR "scree.pyi was not installed")
 endif()
 
+foreach(file IN ITEMS share/man/man1/scree.1 share/bash-completion/completions/scree share/zsh/vendor-completions/_scree)
+  if(NOT EXISTS ${prefix}/${file})
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+
+# Another project finds it, builds with it, and heats a slab with the same result as the command.
+set(consumer ${BUILD}/consumer)
+file(REMOVE_RECURSE ${consumer})
+run(ignored ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${consumer} -G Ninja -D CMAKE_PREFIX_PATH=${prefix}
+    -D CMAKE_BUILD_TYPE=Release)
+run(ignored ${CMAKE_COMMAND} --build ${consumer})
+run(probe ${consumer}/consumer ${prefix}/share/scree/scenes/slab.yaml)
+run(ignored ${prefix}/bin/scree run ${prefix}/share/scree/scenes/slab.yaml --out ${consumer}/run --quiet)
+file(READ ${consumer}/run/summary.json summary)
+string(JSON expected GET "${summary}" heat probes near temperature)
+# To a thousandth of a kelvin, in whole thousandths.
+string(REGEX REPLACE "[.](...).*" "\\1" probe "${probe}")
+string(REGEX REPLACE "[.](...).*" "\\1" expected "${expected}")
+math(EXPR difference "${probe} - ${expected}")
+if(difference LESS -1 OR difference GREATER 1)
+  message(FATAL_ERROR "the other project finds ${probe} mK where the command finds ${expected} mK")
+endif()
+
 foreach(document IN ITEMS LICENSE CHANGELOG.md tools/README.md)
   if(NOT EXISTS ${prefix}/share/doc/scree/${document})
     message(FATAL_ERROR "${document} was not installed")

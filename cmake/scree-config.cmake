@@ -1,0 +1,6 @@
+# find_package(scree): scree::library is all of it (tools/library/README.md); single rooms are scree::contact and the like.
+# Needs C enabled besides C++, for HDF5 and VTK.
+
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+include(ScreeLibraries)
+include(${CMAKE_CURRENT_LIST_DIR}/scree-targets.cmake)
