@@ -10,6 +10,7 @@ if(TARGET scree_tool)
 endif()
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scree/scenes)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES scenes/TUTORIAL.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
 install(DIRECTORY scenes/pictures/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes/pictures)
 
 # The READMEs keep their places, so that the links between them hold.
