@@ -223,8 +223,31 @@ TEST(StudyCommand, WritesAScriptForGnuParallelThatMakesAndGathersItsRuns) {
   ASSERT_EQ(study.run("--parallel " + script).status, 0);
   const Ended ended = shell(script + " --jobs 2", study.file.parent_path());
   EXPECT_EQ(ended.status, 0) << ended.text;
-  EXPECT_THAT(ended.text, HasSubstr("4 of 4 runs complete"));
+  EXPECT_THAT(ended.text, HasSubstr("complete: " + study.out.string()));
   EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+}
+
+TEST(StudyCommand, TellsAProgramHowFarItIsAndHowItEnded) {
+  const OneStudy study("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h, 2 h]}]\nreport: [heat.time]\n");
+  const Ended ended = shell(fmt::format("{} study {} --json --out {}", SCREE_PROGRAM, study.file.string(), study.out.string()),
+                            study.file.parent_path());
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  std::istringstream lines(ended.text);
+  std::vector<nlohmann::json> events;
+  for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line));
+  EXPECT_EQ(events.front()["event"], "start");
+  EXPECT_EQ(events.back()["event"], "end");
+  EXPECT_EQ(events.back()["status"], "complete");
+  EXPECT_EQ(events.back()["directory"], study.out.string());
+}
+
+TEST(StudyCommand, FindsNothingWrongWithTheStudiesThatAreShipped) {
+  const fs::path folder = study_file("", "").parent_path();
+  for (const auto& entry : fs::directory_iterator(fs::path(SCREE_SOURCE_DIR) / "scenes/studies")) {
+    const Ended ended = shell(std::string(SCREE_PROGRAM) + " study --list " + entry.path().string(), folder);
+    EXPECT_EQ(ended.status, 0) << entry.path() << ended.text;
+    EXPECT_GT(std::count(ended.text.begin(), ended.text.end(), '\n'), 1);
+  }
 }
 
 TEST(StudyCommand, DrawsItsTable) {

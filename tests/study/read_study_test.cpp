@@ -34,10 +34,10 @@ vary:
 report: [heat.time_error]
 )");
   const double factors[] = {1, 10, 100, 1000};
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(*study.factors[0].levels[i].number, factors[i], 1e-12 * factors[i]);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(*study.factors[0].levels[i].number, factors[i]);
   const double sizes[] = {0.1, 0.15, 0.2};
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(*study.factors[1].levels[i].number, sizes[i], 1e-15);
-  EXPECT_EQ(study.factors[1].levels[2].text, "0.20000000000000001 m");
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(*study.factors[1].levels[i].number, sizes[i]);
+  EXPECT_EQ(study.factors[1].levels[2].text, "0.2 m");
 }
 
 TEST(ReadStudy, PutsOnePointOfALatinHypercubeIntoEveryLayerOfEveryKey) {

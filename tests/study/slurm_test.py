@@ -133,7 +133,7 @@ def check_study(scree, folder, environment):
     run(*study, "--slurm", str(script))
     job = run("sbatch", "--parsable", str(script), env=environment).strip()
     wait_until("the tasks", lambda: not run("squeue", "-h", "-j", job, env=environment).strip(), 120)
-    print(run(*study, "--gather"))
+    run(*study, "--gather")
     rows = [line.split(",") for line in (out / "table.csv").read_text(encoding="utf-8").splitlines()]
     columns = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
     assert columns["status"] == ["complete"] * 3, rows

@@ -8,11 +8,10 @@ namespace scree::study {
 
 Level Interval::at(double fraction, const SourceLocation& where) const {
   double value = logarithmic ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
-  // The ends as they were written, whatever the rounding.
-  if (fraction <= 0) value = low;
-  if (fraction >= 1) value = high;
   if (whole) value = std::round(value);
-  return {fmt::format("{:.17g}{}{}", value, unit.empty() ? "" : " ", unit), value, where};
+  // As a person would write it: 10, where the power of a logarithm ends in 9.999999999999998.
+  const std::string text = fmt::format("{:.12g}", value);
+  return {fmt::format("{}{}{}", text, unit.empty() ? "" : " ", unit), std::stod(text), where};
 }
 
 std::vector<std::string> Study::varied() const {

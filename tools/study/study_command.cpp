@@ -14,6 +14,7 @@
 #include "tools/study/ensembles.h"
 #include "tools/study/gather.h"
 #include "tools/study/memory.h"
+#include "tools/study/outcome.h"
 #include "tools/study/read_study.h"
 
 namespace scree::study {
@@ -38,17 +39,32 @@ Table write_tables(const Study& study, const std::vector<PlannedRun>& runs, cons
   return table;
 }
 
-// Exit status 0 only if all runs are complete and all their figures are there.
-int conclude(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files, bool quiet) {
+// The table of the runs, and what is to be said of it. Complete only if all runs are, and all their figures are there.
+Ending conclude(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   const Table table = write_tables(study, runs, files);
   const Standing standing = standing_of(table);
-  const std::vector<std::string> missing = paths_not_found(study, runs, files);
-  for (const std::string& sentence : missing) fmt::print(stderr, "{}\n", sentence);
-  if (!quiet) {
-    fmt::print("{} of {} runs complete, {} failed or unsound, {} not made: {}\n", standing.complete, runs.size(),
-               standing.unsound, standing.open, files.table().string());
+  Ending ending;
+  ending.directory = files.directory.string();
+  ending.reasons = paths_not_found(study, runs, files);
+  const bool whole = standing.complete == runs.size() && ending.reasons.empty();
+  ending.status = whole ? "complete" : "incomplete";
+  ending.exit_status = whole ? 0 : 1;
+  if (standing.complete < runs.size()) {
+    ending.reasons.push_back(fmt::format("{} of {} runs complete, {} failed or unsound, {} not made: {}", standing.complete,
+                                         runs.size(), standing.unsound, standing.open, files.table().string()));
   }
-  return standing.complete == runs.size() && missing.empty() ? 0 : 1;
+  return ending;
+}
+
+// Says how a study ended, and gives the exit status.
+int finish(const Ending& ending, Progress& progress) {
+  progress.end(ending);
+  for (const std::string& reason : ending.reasons) fmt::print(stderr, "{}\n", reason);
+  return ending.exit_status;
+}
+
+ProgressMode mode_of(const Arguments& arguments) {
+  return arguments.json ? ProgressMode::json : progress_mode(arguments.quiet);
 }
 
 FileLock lock_of(const StudyFiles& files, FileLock::Kind kind) {
@@ -62,7 +78,7 @@ FileLock lock_of(const StudyFiles& files, FileLock::Kind kind) {
 
 int make_all(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   const FileLock lock = lock_of(files, FileLock::Kind::exclusive);
-  Progress progress(progress_mode(arguments.quiet));
+  Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("{} runs", runs.size()));
   Means means;
   means.jobs = given(arguments.jobs).value_or(available_processors());
@@ -71,7 +87,7 @@ int make_all(const Arguments& arguments, const Study& study, const std::vector<P
   Conductor conductor(study, files, means, progress, [&] { write_tables(study, runs, files); });
   conductor.make(runs);
   progress.finish("");
-  return conclude(study, runs, files, arguments.quiet);
+  return finish(conclude(study, runs, files), progress);
 }
 
 int make_one(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
@@ -83,14 +99,17 @@ int make_one(const Arguments& arguments, const Study& study, const std::vector<P
     throw InputError(problem);
   }
   const FileLock lock = lock_of(files, FileLock::Kind::shared);
-  Progress progress(progress_mode(arguments.quiet));
+  Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("run {}", arguments.task));
   const Means means{1, given(arguments.threads), available_memory()};
   const PlannedRun& one = runs[static_cast<std::size_t>(arguments.task) - 1];
   Conductor(study, files, means, progress, [] {}).make({one});
   progress.finish("");
-  const Table row = gather(study, {one}, files);
-  return standing_of(row).complete == 1 ? 0 : 1;
+  const Outcome outcome = read_outcome(files, one.directory);
+  const bool sound = outcome.status == "complete";
+  Ending ending{outcome.status, sound ? 0 : 1, files.run(one.directory).directory.string(), {}};
+  if (!outcome.reason.empty()) ending.reasons.push_back(outcome.reason);
+  return finish(ending, progress);
 }
 
 void write_script(const std::string& file, const std::string& script) {
@@ -112,7 +131,10 @@ fs::path directory_of(const Arguments& arguments) {
 }
 
 int dispatch(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
-  if (arguments.gather) return conclude(study, runs, files, arguments.quiet);
+  if (arguments.gather) {
+    Progress progress(mode_of(arguments));
+    return finish(conclude(study, runs, files), progress);
+  }
   const Batch batch{arguments.study, files.directory, static_cast<int>(runs.size()), given(arguments.threads)};
   if (!arguments.slurm.empty()) write_script(arguments.slurm, slurm_script(batch));
   if (!arguments.parallel.empty()) write_script(arguments.parallel, parallel_script(batch));
@@ -129,7 +151,9 @@ void declare(CLI::App& command, Arguments& arguments) {
       ->check(CLI::Range(1, 4096));
   command.add_option("--threads", arguments.threads, "of each run (default: the processors shared out)")
       ->check(CLI::Range(1, 1024));
-  command.add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+  CLI::Option* quiet = command.add_flag("--quiet", arguments.quiet, "say nothing but what is wrong");
+  command.add_flag("--json", arguments.json, "progress for a program: one JSON object a line on standard output")
+      ->excludes(quiet);
   auto* what = command.add_option_group("instead of making all runs here");
   what->add_option("--task", arguments.task, "make only the run of this number, counted from 1")->check(CLI::PositiveNumber);
   what->add_flag("--gather", arguments.gather, "make no run, only the table of those that there are");
@@ -137,6 +161,7 @@ void declare(CLI::App& command, Arguments& arguments) {
   what->add_option("--slurm", arguments.slurm, "write a job array for Slurm whose tasks are the runs");
   what->add_option("--parallel", arguments.parallel, "write a script that makes the runs by GNU parallel");
   what->require_option(0, 1);
+  what->set_help_flag();
 }
 
 int run(const Arguments& arguments) {

@@ -13,6 +13,7 @@ struct Arguments {
   int jobs = 0;           // 0: as many as there are processors
   int threads = 0;        // of each run; 0: the processors shared out
   bool quiet = false;
+  bool json = false;  // progress for a program
   // At most one of these; none: all runs here and now.
   int task = 0;          // this run alone
   bool gather = false;   // no run, the table alone

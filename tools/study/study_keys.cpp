@@ -9,8 +9,9 @@ namespace {
 using enum KeyType;
 namespace q = quantity;
 
-std::vector<Key> all_keys() {
-  constexpr Range many{.low = 2, .high = 1e6};
+constexpr Range many{.low = 2, .high = 1e6};
+
+std::vector<Key> varied_keys() {
   return {
       row("scene", path, "The base scene, relative to this file.").required(),
       row("set", list, "What every run has otherwise than the base scene, as KEY=VALUE.").fallback("[]"),
@@ -31,6 +32,11 @@ std::vector<Key> all_keys() {
           .required()
           .only({Condition{.key = "latin_hypercube", .absent = true}}),
       row("vary[].range.spacing", word, "Equal differences or equal ratios.").words({"linear", "log"}).fallback("linear"),
+  };
+}
+
+std::vector<Key> other_keys() {
+  return {
       row("latin_hypercube", section, "So many points, each in a layer of its own along every varied key."),
       row("latin_hypercube.points", integer, "How many.").range(many).required(),
       row("latin_hypercube.seed", integer, "Another seed, other points.").range(not_negative).fallback("1"),
@@ -53,10 +59,16 @@ std::vector<Key> all_keys() {
   };
 }
 
+KeyTable make_table() {
+  std::vector<Key> keys = varied_keys();
+  for (Key& key : other_keys()) keys.push_back(std::move(key));
+  return KeyTable(std::move(keys));
+}
+
 }  // namespace
 
 const KeyTable& study_keys() {
-  static const KeyTable table{all_keys()};
+  static const KeyTable table = make_table();
   return table;
 }
 
