@@ -168,6 +168,37 @@ report: [heat.time]
   EXPECT_THAT(table.find("heat.time")->numbers, testing::ElementsAre(3600, 7200, testing::IsNan(), testing::IsNan()));
 }
 
+TEST(StudyCommand, RecordsARunThatTheSystemKillsAndMakesTheOthersAndLaterThatOne) {
+  const OneStudy study(slow_study());
+  const Ended ended = while_it_runs(study, "kill -KILL $(cat /proc/$study/task/$study/children); wait $study");
+  EXPECT_EQ(ended.status, 1) << ended.text;
+  study::Table table = study.table();
+  EXPECT_THAT(table.find("status")->texts, testing::ElementsAre("crashed", "complete", "complete", "complete"));
+  EXPECT_THAT(table.find("reason")->texts[0], HasSubstr("ended by signal 9"));
+  EXPECT_EQ(study.run().status, 0);
+  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+}
+
+// A body whose mesh file is not closed fails in the mesher, before there is a packing.
+TEST(StudyCommand, DoesNotTryAPackingAgainThatCannotBeMade) {
+  const OneStudy study(R"(
+scene: scene.yaml
+set: ["bodies.block.box=null", "bodies.block.mesh.position=[0, 0, 0.1]", bodies.block.mesh.file=open.stl]
+vary: [{key: heat.until, values: [1 h, 2 h]}]
+report: [heat.time]
+)");
+  const fs::path open = study.file.parent_path() / "open.stl";
+  std::ofstream(open)
+      << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+         "endsolid open\n";
+  const Ended ended = study.run("--jobs 1");
+  EXPECT_EQ(ended.status, 1) << ended.text;
+  const study::Table table = study.table();
+  EXPECT_EQ(table.find("status")->texts[0], "bad_input");
+  EXPECT_EQ(table.find("status")->texts[1], "failed");
+  EXPECT_THAT(table.find("reason")->texts[1], HasSubstr("its packing is that of run 1"));
+}
+
 TEST(StudyCommand, RefusesWhatIsWrongBeforeAnyRun) {
   const OneStudy study("scene: scene.yaml\nvary: [{key: heat.tolerance, values: [1 K, 2 m]}]\nreport: [heat.time]\n");
   const Ended ended = study.run();

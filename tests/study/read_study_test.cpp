@@ -109,6 +109,8 @@ TEST(ReadStudy, NamesTheKeyThatWasProbablyMeant) {
                         "mean contact.stiffness_factor?"));
   EXPECT_THAT(wrong_with("scene: scene.yaml\nvary: [{key: heat.until, value: [1 h]}]" + rest),
               HasSubstr("Did you mean values?"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nset: [heat.untill=1 h]\nvary: [{key: heat.until, values: [1 h]}]" + rest),
+              HasSubstr("s.yaml:2:7: set[0] is heat.untill=1 h (must be KEY=VALUE"));
   EXPECT_THAT(wrong_with("scene: scne.yaml\nvary: [{key: heat.until, values: [1 h]}]" + rest),
               HasSubstr("s.yaml:1:8: scene is scne.yaml (must be a scene file that exists)"));
 }

@@ -163,7 +163,8 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
   write_outcome(files_, run.directory, end);
   const Outcome outcome = read_outcome(files_, run.directory);
   largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
-  if (active.settling) {
+  // What ended a process from outside need not end the next one.
+  if (active.settling && outcome.status != "crashed") {
     failed_packings_[run.packing] =
         fmt::format("its packing is that of run {}, which has none: {}", run.number, outcome.reason);
   }

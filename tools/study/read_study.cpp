@@ -31,7 +31,7 @@ class Reader {
     if (root.at("scene").sound && !fs::is_regular_file(study.scene, ignored)) {
       refuse(root.at("scene"), "must be a scene file that exists");
     }
-    for (const Checked& change : root.at("set").items) study.overrides.push_back(change.text);
+    for (const Checked& change : root.at("set").items) study.overrides.push_back(assignment(change));
     study.error_estimate = root.at("error_estimate").flag();
     for (const Checked& varied : root.at("vary").items) study.factors.push_back(factor(varied));
     if (const Checked* hypercube = root.find("latin_hypercube")) {
@@ -64,6 +64,19 @@ class Reader {
              close ? fmt::format("Did you mean {}?", *close) : "`scree keys` lists them all");
     }
     return key;
+  }
+
+  // A path in this file is relative to it.
+  std::string assignment(const Checked& change) {
+    const auto equals = change.text.find('=');
+    const Key* key = equals == std::string::npos ? nullptr : scene_key(change.text.substr(0, equals));
+    if (key == nullptr) {
+      if (change.sound) refuse(change, "must be KEY=VALUE, with the path of a key of the scene", "`scree keys` lists them all");
+      return change.text;
+    }
+    const std::string value = change.text.substr(equals + 1);
+    if (key->type != KeyType::path || value == "null") return change.text;
+    return fmt::format("{}={}", change.text.substr(0, equals), in_folder(value).string());
   }
 
   Factor factor(const Checked& varied) {
