@@ -1,0 +1,3 @@
+# Comments as Doxygen reads them: a line of its own before what it describes, or behind it.
+s#^\( *\)//\( \|$\)#\1///\2#
+s#\([;,{})]\)  *// #\1  ///< #
