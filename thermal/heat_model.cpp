@@ -114,19 +114,6 @@ void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mater
   }
 }
 
-// What joints add to K.
-template <int dim>
-SparseMatrix joint_matrix(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                          const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(contacts.contacts.size() * 4 * dim * dim);
-  add_joints(contacts, joint_conduction(mesh, materials, contacts, joint), joint.form, entries);
-  const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
-  SparseMatrix matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
 // Flux in one block.
 template <int dim>
 class BlockFlux {
@@ -194,7 +181,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
   model.conductance = assemble_blocks(mesh, materials, model);
-  if (!contacts.contacts.empty()) model.conductance += joint_matrix(mesh, materials, contacts, options.joint);
+  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, model.conductance);
   return model;
 }
 

@@ -55,8 +55,8 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
 
 class HeatRun::Implementation {
  public:
-  Implementation(const HeatModel& model, const TimeOptions& options)
-      : model_(model), options_(options), bookkeeper_(model_), drives_(model_) {
+  Implementation(SharedModel model, const TimeOptions& options)
+      : kept_(std::move(model)), model_(*kept_), options_(options), bookkeeper_(model_), drives_(model_) {
     check_options(options);
     scheme_ = choose_scheme(model_, options);
     if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
@@ -183,7 +183,8 @@ class HeatRun::Implementation {
     if (progress) progress(time);
   }
 
-  HeatModel model_;
+  SharedModel kept_;
+  const HeatModel& model_;
   TimeOptions options_;
   Bookkeeper bookkeeper_;
   Drives drives_;
@@ -206,10 +207,14 @@ std::optional<double> overshoot(const HeatModel& model, const HeatState& state) 
 }
 
 HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options)
-    : implementation_(std::make_unique<Implementation>(model, options)) {}
+    : HeatRun(std::make_shared<const HeatModel>(model), options, std::nullopt) {}
 
-HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state) : HeatRun(model, options) {
-  implementation_->resume(std::move(state));
+HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state)
+    : HeatRun(std::make_shared<const HeatModel>(model), options, std::optional(std::move(state))) {}
+
+HeatRun::HeatRun(SharedModel model, const TimeOptions& options, std::optional<HeatState> state)
+    : implementation_(std::make_unique<Implementation>(std::move(model), options)) {
+  if (state) implementation_->resume(*std::move(state));
 }
 
 HeatRun::~HeatRun() = default;

@@ -58,12 +58,14 @@ struct HeatState {
 // the mesh and the step make of a sudden start. Nothing where heat is applied: then they may.
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state);
 
-// Takes a copy of the model. Throws InputError for options that make no sense (an explicit step above the stable one, named
-// with the block that limits it) and RunError if the equations cannot be solved or the tolerance is out of reach.
+// Keeps the model, or a copy of it. Throws InputError for options that make no sense (an explicit step above the stable one,
+// named with the block that limits it) and RunError if the equations cannot be solved or the tolerance is out of reach.
 class HeatRun {
  public:
+  using SharedModel = std::shared_ptr<const HeatModel>;
   HeatRun(const HeatModel& model, const TimeOptions& options);  // from t = 0
   HeatRun(const HeatModel& model, const TimeOptions& options, HeatState state);
+  HeatRun(SharedModel model, const TimeOptions& options, std::optional<HeatState> state);
   ~HeatRun();
 
   // Advances to exactly `time`, meeting every multiple of `output_every` on the way, so that the steps do not depend on how

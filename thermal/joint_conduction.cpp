@@ -1,5 +1,7 @@
 #include "thermal/joint_conduction.h"
 
+#include <algorithm>
+
 #include "thermal/contact_conduction.h"
 
 namespace scree::thermal {
@@ -7,6 +9,10 @@ namespace scree::thermal {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// A list of entries takes some 400 bytes a contact while it becomes a matrix; adding a part to the whole takes a copy of it.
+constexpr std::size_t contacts_at_once = 1 << 18;
 
 // g w w^T.
 template <int dim>
@@ -77,13 +83,16 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
   return conduction;
 }
 
+namespace {
+
+// Of the contacts from `first` to before `last`.
 template <int dim>
-void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                Triplets& entries) {
-  SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
-  auto perfect = conduction.perfect.begin();
+void add_entries(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+                 std::size_t first, std::size_t last, Triplets& entries) {
+  auto perfect = std::lower_bound(conduction.perfect.begin(), conduction.perfect.end(), first,
+                                  [](const PerfectTerm<dim>& term, std::size_t contact) { return term.contact < contact; });
   PerfectSum<dim> sum(entries);
-  for (std::size_t c = 0; c < conduction.conductances.size(); ++c) {
+  for (std::size_t c = first; c < last; ++c) {
     const double conductance = conduction.conductances[c];
     if (perfect != conduction.perfect.end() && perfect->contact == c) {
       sum.add(*perfect++, conductance);
@@ -92,6 +101,23 @@ void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<
     }
   }
   sum.flush();
+}
+
+}  // namespace
+
+template <int dim>
+void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+                SparseMatrix& conductance) {
+  SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
+  Triplets entries;
+  for (std::size_t first = 0; first < conduction.conductances.size(); first += contacts_at_once) {
+    const std::size_t last = std::min(first + contacts_at_once, conduction.conductances.size());
+    entries.clear();
+    add_entries(contacts, conduction, form, first, last, entries);
+    SparseMatrix part(conductance.rows(), conductance.cols());
+    part.setFromTriplets(entries.begin(), entries.end());
+    conductance += part;
+  }
 }
 
 template <int dim>
@@ -121,7 +147,8 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
 #define SCREE_INSTANTIATE(dim)                                                                                         \
   template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
                                                       const contact::ContactSet<dim>&, const JointOptions&);           \
-  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, Triplets&);   \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm,               \
+                                Eigen::SparseMatrix<double>&);                                                         \
   template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,        \
                                                   const Eigen::VectorXd&, JointForm);
 SCREE_INSTANTIATE(2)

@@ -20,10 +20,10 @@ template <int dim>
 JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                                       const contact::ContactSet<dim>& contacts, const JointOptions& joint);
 
-// The entries of K.
+// Adds the entries of K, a part of the contacts at a time.
 template <int dim>
 void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                std::vector<Eigen::Triplet<double>>& entries);
+                Eigen::SparseMatrix<double>& conductance);
 
 // Heat flow from owner to target through each contact [W].
 template <int dim>

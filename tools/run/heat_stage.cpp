@@ -14,8 +14,9 @@ namespace scree::run {
 namespace {
 
 template <int dim>
-HeatedPile<dim> find_pile(RunContext& context, const packing::Packing<dim>& packing) {
+HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim> packing) {
   auto pile = placed_pile(context.scene, packing, [&](const std::string& text) { context.progress.note(text); });
+  packing = {};
   context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()), [&] {
     join(context.scene, pile);
     return true;
@@ -55,9 +56,8 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
   const auto from = state ? std::optional<double>(state->time) : std::nullopt;
   if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
   HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
-  if (context.estimate_space_error) recorder.estimate_space_error(outcome.model);
-  thermal::HeatRun run = state ? thermal::HeatRun(outcome.model, scene.heat->time, std::move(*state))
-                               : thermal::HeatRun(outcome.model, scene.heat->time);
+  if (context.estimate_space_error) recorder.estimate_space_error(*outcome.model);
+  thermal::HeatRun run(outcome.model, scene.heat->time, std::move(state));
   if (!from) recorder.record(run.state());
   march(context, run, recorder);
   outcome.state = run.state();
@@ -68,8 +68,8 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
 template <int dim>
 void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
   HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, std::nullopt);
-  if (context.estimate_space_error) recorder.estimate_space_error(outcome.model);
-  outcome.state = thermal::steady_state(outcome.model);
+  if (context.estimate_space_error) recorder.estimate_space_error(*outcome.model);
+  outcome.state = thermal::steady_state(*outcome.model);
   outcome.solver = "steady state";
   recorder.record(outcome.state);
   recorder.finish();
@@ -78,17 +78,17 @@ void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
 }  // namespace
 
 template <int dim>
-HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& packing) {
+HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) {
   const Scene& scene = context.scene;
   HeatOutcome<dim> outcome;
-  outcome.pile = find_pile(context, packing);
+  outcome.pile = find_pile(context, std::move(packing));
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
-                                [&] { return heat_model(scene, outcome.pile); });
+                                [&] { return std::make_shared<const thermal::HeatModel>(heat_model(scene, outcome.pile)); });
   if (scene.effective_window) {
     const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
                            scene.effective_window->max().template head<dim>());
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
-      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, outcome.model, window);
+      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, window);
     });
   }
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
@@ -99,13 +99,13 @@ HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& pa
     outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
   }
   if (context.estimate_space_error) {
-    const auto rate = thermal::temperature_rate(outcome.model, outcome.state.temperature, outcome.state.time);
+    const auto rate = thermal::temperature_rate(*outcome.model, outcome.state.temperature, outcome.state.time);
     outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials, outcome.state.temperature, rate);
   }
   return outcome;
 }
 
-template HeatOutcome<2> heat_stage<2>(RunContext&, const packing::Packing<2>&);
-template HeatOutcome<3> heat_stage<3>(RunContext&, const packing::Packing<3>&);
+template HeatOutcome<2> heat_stage<2>(RunContext&, packing::Packing<2>);
+template HeatOutcome<3> heat_stage<3>(RunContext&, packing::Packing<3>);
 
 }  // namespace scree::run

@@ -1,6 +1,7 @@
 // From a frozen packing to temperatures in time: contacts, the heat balance, the time loop and its files.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,7 +16,7 @@ namespace scree::run {
 template <int dim>
 struct HeatOutcome {
   HeatedPile<dim> pile;
-  thermal::HeatModel model;
+  std::shared_ptr<const thermal::HeatModel> model;
   thermal::HeatState state;  // at the end
   std::string solver;
   std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, over all times [K]
@@ -23,7 +24,8 @@ struct HeatOutcome {
   std::optional<thermal::EffectiveConductivity<dim>> effective;  // if the scene asks for it
 };
 
+// Takes the packing: its mesh goes on as the placed one, and a large mesh need not be held twice.
 template <int dim>
-HeatOutcome<dim> heat_stage(RunContext& context, const packing::Packing<dim>& packing);
+HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing);
 
 }  // namespace scree::run

@@ -51,7 +51,7 @@ void say_costs(const std::vector<StageCost>& costs, Progress& progress) {
 template <int dim>
 Ending run_stages(RunContext& context, Json& summary) {
   const Scene& scene = context.scene;
-  const PackingOutcome<dim> outcome = packing_stage<dim>(context);
+  PackingOutcome<dim> outcome = packing_stage<dim>(context);
   add_packing(summary, outcome);
   if constexpr (dim == 3) {
     if (scene.settle) {
@@ -64,7 +64,7 @@ Ending run_stages(RunContext& context, Json& summary) {
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
   if (!scene.heat) return {"complete", 0, {}};
-  const HeatOutcome<dim> heat = heat_stage(context, outcome.packing);
+  const HeatOutcome<dim> heat = heat_stage(context, std::move(outcome.packing));
   add_heat(summary, scene, heat);
   auto reasons = unsound(scene, heat.state);
   if (!reasons.empty()) return {"not_converged", 1, std::move(reasons)};

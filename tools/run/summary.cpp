@@ -170,19 +170,19 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"largest_step", state.largest_step},
                      {"factorisations", state.factorisations},
                      {"solver", outcome.solver},
-                     {"ledger", ledger_json(state.ledger, outcome.model)},
+                     {"ledger", ledger_json(state.ledger, *outcome.model)},
                      {"probes", probes_json(outcome)},
                      {"least_temperature", state.temperature.minCoeff()},
                      {"largest_temperature", state.temperature.maxCoeff()},
                      {"least_temperature_ever", state.reached.least},
                      {"largest_temperature_ever", state.reached.largest}};
   if (outcome.exact_error) summary["heat"]["exact_error"] = *outcome.exact_error;
-  const thermal::MaximumPrinciple principle = thermal::maximum_principle(outcome.model);
+  const thermal::MaximumPrinciple principle = thermal::maximum_principle(*outcome.model);
   summary["heat"]["maximum_principle"] = {{"holds", principle.reversed == 0},
                                           {"pairs", principle.pairs},
                                           {"reversed", principle.reversed},
                                           {"largest", principle.largest}};
-  if (const auto beyond = thermal::overshoot(outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
+  if (const auto beyond = thermal::overshoot(*outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
   if (outcome.space_error) {
     summary["heat"]["space_error"]["largest"] = outcome.space_error->largest;
     if (outcome.space_error->relative) summary["heat"]["space_error"]["relative"] = *outcome.space_error->relative;
