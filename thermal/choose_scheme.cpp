@@ -20,8 +20,8 @@ constexpr double solves = 500;
 // What the symbolic analysis takes, an unknown [s].
 constexpr double seconds_per_unknown = 1e-5;
 
-// The least that implicit steps will cost: analysis, and solves with half the factor of a plane grid (31/4 n log2 n entries with
-// nested dissection; George, SIAM J. Numer. Anal. 10, 1973). Solids have more.
+// The least that implicit steps will cost: analysis, and solves with half the factor of a plane grid (31/4 n log2 n entries
+// with nested dissection; George, SIAM J. Numer. Anal. 10, 1973). Solids have more.
 double least_implicit(const HeatModel& model) {
   const auto unknowns = static_cast<double>(model.capacity.size());
   return seconds_per_unknown * unknowns + solves * seconds_per_factor * 4 * unknowns * std::log2(unknowns);
