@@ -47,7 +47,8 @@ struct OneStudy {
   explicit OneStudy(const std::string& text) : file(study_file(falling_scene, text)), out(file.parent_path() / "out") {}
 
   [[nodiscard]] std::string command(const std::string& options) const {
-    return std::string(SCREE_PROGRAM) + " study " + file.string() + " --quiet --out " + out.string() + " " + options;
+    return std::string(SCREE_PROGRAM) + " study " + file.string() + " --quiet --threads 1 --out " + out.string() + " " +
+           options;
   }
   [[nodiscard]] Ended run(const std::string& options = "") const { return shell(command(options), file.parent_path()); }
   [[nodiscard]] study::Table table() const { return study::read_table(out / "table.h5"); }
