@@ -62,10 +62,10 @@ TEST(Chart, ACurveRunsFromCornerToCornerOfItsAxes) {
   Chart chart;
   chart.curves = {{"rising", {0, 5, 10}, {0, 1, 2}}};
   const std::string svg = to_svg(chart);
-  // The axes lie from 74 to 690 across and from 328 up to 14; 5 and 1 are in the middle.
-  EXPECT_THAT(svg, HasSubstr("points=\"74.0,328.0 382.0,171.0 690.0,14.0 \""));
+  // The axes lie from 92 to 690 across and from 328 up to 14; 5 and 1 are in the middle.
+  EXPECT_THAT(svg, HasSubstr("points=\"92.0,328.0 391.0,171.0 690.0,14.0 \""));
   chart.points = true;
-  EXPECT_THAT(to_svg(chart), HasSubstr("<circle cx=\"382.0\" cy=\"171.0\""));
+  EXPECT_THAT(to_svg(chart), HasSubstr("<circle cx=\"391.0\" cy=\"171.0\""));
 }
 
 TEST(Chart, WhatIsNotANumberIsLeftOut) {

@@ -30,6 +30,28 @@ TEST(StudyPage, ShowsEveryRunAndEachFigureAgainstTheKeyThatVaries) {
   EXPECT_EQ(circles, 2U);
 }
 
+// Two keys on a grid and a seed: one axis, one colour each for the second, and nothing drawn against the seed.
+TEST(StudyPage, AGridIsDrawnWithAColourForEachValueOfItsSecondKey) {
+  const auto directory = test::fresh_directory("study_page_grid");
+  std::ofstream table(directory / "table.csv");
+  table << "run,size,beta,seed,heat\n";
+  int run = 0;
+  for (const char* size : {"1", "2"}) {
+    for (const char* beta : {"10", "100"}) {
+      for (const char* seed : {"1", "2"}) {
+        ++run;
+        table << run << ',' << size << ',' << beta << ',' << seed << ',' << run * run << '\n';
+      }
+    }
+  }
+  table.close();
+  const std::string html = study_page(directory);
+  EXPECT_THAT(html, HasSubstr("heat against size, a colour for each beta"));
+  EXPECT_THAT(html, Not(HasSubstr("seed against")));
+  EXPECT_THAT(html, Not(HasSubstr("beta against")));
+  EXPECT_THAT(html, HasSubstr(">100</text>"));
+}
+
 TEST(StudyPage, AnEmptyTableIsRefused) {
   const auto directory = test::fresh_directory("study_page_empty");
   std::ofstream(directory / "table.csv") << "";

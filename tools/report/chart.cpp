@@ -14,7 +14,7 @@ namespace scree::report {
 namespace {
 
 constexpr double width = 860, height = 380;                      // of the drawing, in its own units
-constexpr double left = 74, right = 170, top = 14, bottom = 52;  // margins; the names of the curves stand on the right
+constexpr double left = 92, right = 170, top = 14, bottom = 52;  // margins; the names of the curves stand on the right
 
 // Told apart by those who see colours otherwise, too (Okabe and Ito).
 constexpr std::array colours{"#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888"};
@@ -44,14 +44,19 @@ std::string text_at(double x, double y, const std::string& anchor, const std::st
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, escaped(text));
 }
 
+// Short enough for the margin.
+std::string tick_text(double mark) {
+  return std::abs(mark) < 1e5 ? figure(mark) : fmt::format("{:.4g}", mark);
+}
+
 std::string grid(const Axis& x, const Axis& y) {
   std::string svg;
   for (const double mark : y.marks) {
     svg += fmt::format("<line class=\"grid\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", x.from, x.to,
                        y.at(mark), y.at(mark));
-    svg += text_at(x.from - 8, y.at(mark) + 4, "end", figure(mark));
+    svg += text_at(x.from - 8, y.at(mark) + 4, "end", tick_text(mark));
   }
-  for (const double mark : x.marks) svg += text_at(x.at(mark), y.from + 20, "middle", figure(mark));
+  for (const double mark : x.marks) svg += text_at(x.at(mark), y.from + 20, "middle", tick_text(mark));
   return svg;
 }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -85,24 +86,72 @@ bool is_figure(const std::string& name) {
   return !others.contains(name);
 }
 
-void add_charts(Page& page, const std::vector<Row>& rows) {
-  std::optional<std::size_t> against;
-  std::size_t charts = 0;
-  for (std::size_t number = 0; number < rows.front().size() && charts < most_charts; ++number) {
-    const std::string& name = rows.front()[number];
+// What a study varies over a grid, or by seed, takes every value as often as any other. So may a figure of the packing alone,
+// which the table then shows.
+bool is_grid(const std::vector<double>& values) {
+  std::map<double, std::size_t> counts;
+  for (const double value : values) {
+    if (!std::isfinite(value)) return false;
+    ++counts[value];
+  }
+  const std::size_t times = counts.begin()->second;
+  return times > 1 && std::all_of(counts.begin(), counts.end(), [&](const auto& entry) { return entry.second == times; });
+}
+
+// Which columns the charts are drawn over.
+struct Axes {
+  std::size_t against = 0;           // the first that varies
+  std::optional<std::size_t> apart;  // another one that a curve is drawn for each value of
+  std::vector<std::size_t> figures;
+};
+
+std::optional<Axes> find_axes(const std::vector<Row>& rows) {
+  std::optional<Axes> axes;
+  for (std::size_t number = 0; number < rows.front().size(); ++number) {
     const auto values = column(rows, number);
-    if (!is_figure(name) || !varies(values)) continue;
-    if (!against) {
-      against = number;
-      continue;
+    if (!is_figure(rows.front()[number]) || !varies(values)) continue;
+    if (!axes) {
+      axes.emplace();
+      axes->against = number;
+    } else if (!is_grid(values)) {
+      axes->figures.push_back(number);
+    } else if (!axes->apart) {
+      axes->apart = number;
     }
+  }
+  return axes;
+}
+
+std::vector<Curve> curves(const std::vector<Row>& rows, const Axes& axes, std::size_t number) {
+  const auto x = column(rows, axes.against);
+  const auto y = column(rows, number);
+  if (!axes.apart) return {{rows.front()[number], x, y}};
+  const auto apart = column(rows, *axes.apart);
+  std::map<double, Curve> found;
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    Curve& curve = found[apart[i]];
+    curve.name = figure(apart[i]);
+    curve.x.push_back(x[i]);
+    curve.y.push_back(y[i]);
+  }
+  std::vector<Curve> all;
+  for (auto& [value, curve] : found) all.push_back(std::move(curve));
+  return all;
+}
+
+void add_charts(Page& page, const std::vector<Row>& rows) {
+  const auto axes = find_axes(rows);
+  if (!axes) return;
+  const Row& names = rows.front();
+  for (std::size_t i = 0; i < std::min(most_charts, axes->figures.size()); ++i) {
+    const std::size_t number = axes->figures[i];
     Chart chart;
-    chart.x_label = rows.front()[*against];
-    chart.y_label = name;
+    chart.x_label = names[axes->against];
+    chart.y_label = names[number];
     chart.points = true;
-    chart.curves = {{name, column(rows, *against), values}};
-    page.figure_with(to_svg(chart), fmt::format("{} against {}", name, rows.front()[*against]));
-    ++charts;
+    chart.curves = curves(rows, *axes, number);
+    const std::string apart = axes->apart ? fmt::format(", a colour for each {}", names[*axes->apart]) : "";
+    page.figure_with(to_svg(chart), fmt::format("{} against {}{}", names[number], names[axes->against], apart));
   }
 }
 
