@@ -29,13 +29,14 @@ constexpr double growth_margin = 0.8;
 // Time is on an output time if it is this close to one, in output intervals.
 constexpr double on_grid = 1e-9;
 
-void check_options(const TimeOptions& options) {
+TimeOptions checked(const TimeOptions& options) {
   const auto refuse = [](const std::string& key, double value, const std::string& rule) {
     throw InputError(problem("heat." + key, fmt::format("{:g}", value), rule));
   };
   if (!(options.tolerance > 0)) refuse("tolerance", options.tolerance, "must be positive, K");
   if (!(options.output_every >= 0)) refuse("output_every", options.output_every, "must not be negative, s");
   if (options.step && !(*options.step > 0)) refuse("step", *options.step, "must be positive, s");
+  return options;
 }
 
 // The explicit step asked for, or the largest stable one; refuses more.
@@ -56,9 +57,12 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
 class HeatRun::Implementation {
  public:
   Implementation(SharedModel model, const TimeOptions& options)
-      : kept_(std::move(model)), model_(*kept_), options_(options), bookkeeper_(model_), drives_(model_) {
-    check_options(options);
-    scheme_ = choose_scheme(model_, options);
+      : kept_(std::move(model)),
+        model_(*kept_),
+        options_(checked(options)),
+        scheme_(choose_scheme(model_, options)),
+        bookkeeper_(model_, scheme_.scheme->sums()),
+        drives_(model_) {
     if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
     state_.temperature = held(model_, model_.initial, drives_.at(0));
     state_.error = Eigen::VectorXd::Zero(model_.initial.size());
@@ -186,9 +190,9 @@ class HeatRun::Implementation {
   SharedModel kept_;
   const HeatModel& model_;
   TimeOptions options_;
+  ChosenScheme scheme_;  // refers to model_
   Bookkeeper bookkeeper_;
   Drives drives_;
-  ChosenScheme scheme_;       // refers to model_
   double explicit_step_ = 0;  // [s]
   HeatState state_;
   std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from

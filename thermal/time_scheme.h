@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "thermal/heat_model.h"
+#include "thermal/flow_network.h"
 
 namespace scree::thermal {
 
@@ -53,6 +53,8 @@ class TimeScheme {
   // What the estimated error is multiplied with so as to bound the true one.
   [[nodiscard]] virtual double safety() const = 0;
   [[nodiscard]] virtual std::int64_t factorisations() const { return 0; }
+  // What its flows need to be summed in.
+  [[nodiscard]] virtual Sums sums() const { return Sums::extended; }
   // Of one factorisation; nothing for a scheme without.
   virtual FactorSize factor_size() { return {}; }
   [[nodiscard]] virtual std::string name() const = 0;
