@@ -11,8 +11,38 @@ namespace {
 using Triplets = std::vector<Eigen::Triplet<double>>;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// A list of entries takes some 400 bytes a contact while it becomes a matrix; adding a part to the whole takes a copy of it.
+// A list of entries takes some 400 bytes a contact while it becomes a matrix.
 constexpr std::size_t contacts_at_once = 1 << 18;
+
+// A sum of many sparse matrices. Each is added to sums of its own size, so that none is copied more often than their number has
+// digits in base 2.
+class GrowingSum {
+ public:
+  void add(SparseMatrix part) {
+    std::size_t parts = 1;
+    while (!sums_.empty() && sums_.back().parts == parts) {
+      part = SparseMatrix(sums_.back().sum + part);
+      parts *= 2;
+      sums_.pop_back();
+    }
+    sums_.push_back({parts, std::move(part)});
+  }
+
+  void add_to(SparseMatrix& matrix) {
+    if (sums_.empty()) return;
+    SparseMatrix total = std::move(sums_.back().sum);
+    sums_.pop_back();
+    for (; !sums_.empty(); sums_.pop_back()) total = SparseMatrix(sums_.back().sum + total);
+    matrix += total;
+  }
+
+ private:
+  struct Sum {
+    std::size_t parts;
+    SparseMatrix sum;
+  };
+  std::vector<Sum> sums_;
+};
 
 // g w w^T.
 template <int dim>
@@ -110,14 +140,16 @@ void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<
                 SparseMatrix& conductance) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
   Triplets entries;
+  GrowingSum sum;
   for (std::size_t first = 0; first < conduction.conductances.size(); first += contacts_at_once) {
     const std::size_t last = std::min(first + contacts_at_once, conduction.conductances.size());
     entries.clear();
     add_entries(contacts, conduction, form, first, last, entries);
     SparseMatrix part(conductance.rows(), conductance.cols());
     part.setFromTriplets(entries.begin(), entries.end());
-    conductance += part;
+    sum.add(std::move(part));
   }
+  sum.add_to(conductance);
 }
 
 template <int dim>
