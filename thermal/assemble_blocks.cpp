@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/base/threads.h"
 #include "engine/mesh/cells.h"
 #include "thermal/block_conduction.h"
 
@@ -124,7 +125,7 @@ SparseMatrix rows_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, M
                      const Incidence<dim>& incidence, bool varying) {
   const auto size = static_cast<int>(mesh.nodes.size());
   std::vector<Chunk> chunks(static_cast<std::size_t>((size + rows_in_chunk - 1) / rows_in_chunk));
-#pragma omp parallel
+#pragma omp parallel if (size >= rows_worth_sharing)
   {
     RowSum<dim> sum(mesh, incidence, mesh.nodes.size());
 #pragma omp for schedule(dynamic)
@@ -147,7 +148,7 @@ SparseMatrix rows_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, M
 template <int dim>
 void set_capacities(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                     const Incidence<dim>& incidence, HeatModel& model) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (model.capacity.size() >= rows_worth_sharing)
   for (Eigen::Index node = 0; node < model.capacity.size(); ++node) {
     const mesh::Block& block = mesh.blocks[model.blocks[NodeId(static_cast<std::size_t>(node))]];
     const Material& material = materials[mesh.bodies[block.body].material];

@@ -1,5 +1,7 @@
 #include "thermal/flow_network.h"
 
+#include "engine/base/threads.h"
+
 namespace scree::thermal {
 
 namespace {
@@ -8,7 +10,7 @@ namespace {
 template <class Sum>
 Eigen::VectorXd summed(const SparseMatrix& matrix, const Eigen::VectorXd& temperature) {
   Eigen::VectorXd heat(temperature.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (heat.size() >= rows_worth_sharing)
   for (Eigen::Index row = 0; row < heat.size(); ++row) {
     Sum sum = 0;
     for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/threads.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
@@ -142,7 +143,7 @@ class StabilisedScheme : public TimeScheme {
   // h L x.
   [[nodiscard]] Columns rates(const Columns& x, double length) const {
     Columns result(x.rows(), 2);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (x.rows() >= rows_worth_sharing)
     for (Eigen::Index row = 0; row < x.rows(); ++row) {
       result.row(row) = (length * inverse_[row]) * leaving(x, row).matrix().transpose();
     }
@@ -151,7 +152,7 @@ class StabilisedScheme : public TimeScheme {
 
   // D_j in the place of D_j-2.
   void advance(const Coefficients& with, double length, const Columns& start, const Columns& newer, Columns& older) const {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (newer.rows() >= rows_worth_sharing)
     for (Eigen::Index row = 0; row < newer.rows(); ++row) {
       const Pair flow = leaving(newer, row);
       const Pair next = with.mu * newer.row(row).transpose().array() + with.nu * older.row(row).transpose().array() -

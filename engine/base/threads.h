@@ -12,4 +12,7 @@ void use_threads(int count);
 
 [[nodiscard]] int threads_in_use();
 
+// A loop over fewer rows than this is done before other threads have woken up.
+inline constexpr long rows_worth_sharing = 4096;
+
 }  // namespace scree
