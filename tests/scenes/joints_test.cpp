@@ -76,6 +76,13 @@ TEST(BarsOfAConductance, RefuseAJointThatCarriesNothing) {
   EXPECT_EQ(kept.first, 0);
 }
 
+TEST(ASingleBlock, RefusesAJointTooForItHasNone) {
+  const SceneRun run =
+      test::run("slab", fresh_directory("slab_joint"), {"contact={joints: [{bodies: [bar, bar], insulating: true}]}"});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_NE(run.summary.dump().find("contact.joints[0]"), std::string::npos) << run.summary;
+}
+
 TEST(JointedCubes, ConductAsTheClosedFormSays) {
   const SceneRun run = test::run("jointed_cubes", fresh_directory("jointed_cubes"));
   ASSERT_EQ(run.exit_status, 0);

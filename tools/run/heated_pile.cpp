@@ -43,8 +43,8 @@ void join(const Scene& scene, HeatedPile<dim>& pile) {
   const thermal::JointOptions& joint = scene.heat->joint;
   if (pile.mesh.blocks.size() > 1) {
     pile.contacts = contact::find_contacts(pile.mesh, thermal::contact_search(joint, pile.mesh.bodies, *scene.contact));
-    thermal::check_rules(joint, pile.mesh, pile.contacts);
   }
+  thermal::check_rules(joint, pile.mesh, pile.contacts);
   pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint);
 }
 
