@@ -45,10 +45,6 @@ struct Incidence {
   }
 };
 
-bool varies(const Conductivity& conductivity) {
-  return !conductivity.value.constant();
-}
-
 // A run of rows as it grows.
 struct Chunk {
   std::vector<int> columns;
@@ -134,7 +130,7 @@ SparseMatrix rows_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, M
       for (int node = first; node < std::min(size, first + rows_in_chunk); ++node) {
         const mesh::Block& block = mesh.blocks[model.blocks[NodeId(static_cast<std::size_t>(node))]];
         const Conductivity& conductivity = *materials[mesh.bodies[block.body].material].conductivity;
-        if (varies(conductivity) == varying) {
+        if (conductivity.varies() == varying) {
           const double value = conductivity.value.constant().value_or(1);
           sum.append(node, value * conductivity_ratios<dim>(conductivity, block), chunks[c]);
         }
@@ -169,7 +165,7 @@ SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<Mater
   const Incidence<dim> incidence(mesh);
   set_capacities(mesh, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
-                                      [&](const mesh::Body& body) { return varies(*materials[body.material].conductivity); });
+                                      [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
   if (any_varies) model.varying->unit_conductance = rows_of(mesh, materials, model, incidence, true);
   return rows_of(mesh, materials, model, incidence, false);
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double seconds_per_entry = 1.6e-9;   // of K, in a product with two columns
 constexpr double seconds_per_flop = 2.5e-10;   // of a supernodal factorisation
 constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
-// An implicit run takes about so many factorisations and, for each factorisation, solves.
+// What an implicit run takes in all, about.
 constexpr double factorisations = 12;
 constexpr double solves = 500;
 // What the symbolic analysis takes, an unknown [s].

@@ -66,10 +66,14 @@ ExchangeRates rates(const Exchange& exchange, const Evaluator& evaluate) {
 
 }  // namespace
 
-Drives::Drives(const HeatModel& model) : model_(model) {
-  for (const Hold& hold : model.holds) vary_ = vary_ || hold.temperature.varies_in_time();
-  for (const Load& load : model.loads) vary_ = vary_ || load.density.varies_in_time();
-  for (const Exchange& exchange : model.exchanges) vary_ = vary_ || varies(exchange);
+bool varies_in_time(const HeatModel& model) {
+  return std::any_of(model.holds.begin(), model.holds.end(),
+                     [](const Hold& hold) { return hold.temperature.varies_in_time(); }) ||
+         std::any_of(model.loads.begin(), model.loads.end(), [](const Load& load) { return load.density.varies_in_time(); }) ||
+         std::any_of(model.exchanges.begin(), model.exchanges.end(), varies);
+}
+
+Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(model)) {
   constant_.load = Eigen::VectorXd::Zero(model.capacity.size());
   constant_.by_load.assign(model.loads.size(), 0.0);
   constant_.fixed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));

@@ -21,6 +21,9 @@ struct Drive {
   std::vector<ExchangeRates> exchanges;  // in the model's order
 };
 
+// Whether a condition or a load changes in time.
+bool varies_in_time(const HeatModel& model);
+
 class Drives {
  public:
   // Evaluates what does not change once and for all; refers to the model.
@@ -37,7 +40,7 @@ class Drives {
   void evaluate(Part part, Drive& drive) const;
 
   const HeatModel& model_;
-  bool vary_ = false;
+  bool vary_;
   Drive constant_;
   std::list<Drive> recent_;  // the latest first
 };

@@ -89,17 +89,13 @@ void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, H
   }
 }
 
-bool varies(const Conductivity& conductivity) {
-  return !conductivity.value.constant();
-}
-
 // What properties that depend on temperature need, if there are any.
 template <int dim>
 void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
   bool any = false;
   for (const mesh::Body& body : mesh.bodies) {
     const Material& material = materials[body.material];
-    any = any || varies(*material.conductivity) || !material.specific_heat->constant();
+    any = any || material.conductivity->varies() || !material.specific_heat->constant();
   }
   if (!any) return;
   VaryingProperties& varying = model.varying.emplace();
@@ -165,6 +161,14 @@ template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const HeatOptions& options) {
   check_bodies(mesh, materials, options);
+  return make_heat_model(mesh, materials, contacts, joint_conduction(mesh, materials, contacts, options.joint), options);
+}
+
+template <int dim>
+HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
+                          const HeatOptions& options) {
+  check_bodies(mesh, materials, options);
   const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
   HeatModel model;
   model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
@@ -181,7 +185,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
   model.conductance = assemble_blocks(mesh, materials, model);
-  add_joints(contacts, joint_conduction(mesh, materials, contacts, options.joint), options.joint.form, model.conductance);
+  add_joints(contacts, joints, options.joint.form, model.conductance);
   return model;
 }
 
@@ -211,12 +215,14 @@ std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const T
   return fluxes;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                          \
-  template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,              \
-                                          const contact::ContactSet<dim>&, const HeatOptions&);                         \
-  template std::vector<Point<dim>> cell_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,    \
-                                                    const Eigen::VectorXd&);                                            \
-  template std::vector<Point<dim>> element_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
+#define SCREE_INSTANTIATE(dim)                                                                                               \
+  template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
+                                          const contact::ContactSet<dim>&, const HeatOptions&);                              \
+  template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
+                                          const contact::ContactSet<dim>&, const JointConduction<dim>&, const HeatOptions&); \
+  template std::vector<Point<dim>> cell_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,         \
+                                                    const Eigen::VectorXd&);                                                 \
+  template std::vector<Point<dim>> element_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,      \
                                                        const Eigen::VectorXd&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

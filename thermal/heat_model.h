@@ -9,6 +9,7 @@
 #include "contact/contact_set.h"
 #include "engine/base/material.h"
 #include "thermal/heat_options.h"
+#include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
 
@@ -82,6 +83,11 @@ bool has_constant_properties(const HeatModel& model);
 template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const HeatOptions& options);
+// Where the conduction of the contacts is known already.
+template <int dim>
+HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
+                          const HeatOptions& options);
 
 // Heat flux of each cell as a series shows them, block by block: its cells, or its elements if it has none [W/m2].
 template <int dim>

@@ -204,6 +204,11 @@ void TemperatureRange::include(const Eigen::VectorXd& temperatures) {
   largest = std::max(largest, temperatures.maxCoeff());
 }
 
+double next_output(const TimeOptions& options, double time) {
+  const double next = (std::floor(time / options.output_every + on_grid) + 1) * options.output_every;
+  return std::min(next, options.until);
+}
+
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
   if (!model.loads.empty()) return std::nullopt;
   const double above = state.reached.largest - state.given.largest;

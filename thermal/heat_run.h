@@ -54,6 +54,9 @@ struct HeatState {
   TemperatureRange given;
 };
 
+// The first output time after `time`: a multiple of the output interval, or the end [s].
+double next_output(const TimeOptions& options, double time);
+
 // By how much the temperatures ever left the range of those that the heat comes from [K]: conduction cannot, so this is what
 // the mesh and the step make of a sudden start. Nothing where heat is applied: then they may.
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state);

@@ -181,7 +181,7 @@ std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model) {
 }
 
 bool can_be_stabilised(const HeatModel& model) {
-  return has_constant_properties(model) && !Drives(model).vary();
+  return has_constant_properties(model) && !varies_in_time(model);
 }
 
 double stabilised_products(const HeatModel& model, const TimeOptions& options) {

@@ -21,6 +21,7 @@ struct Conductivity {
   Eigen::Vector3d ratio{1, 1, 1};                           // [-]; in 2-D the third is the mean of the others
   Eigen::Quaterniond axes{Eigen::Quaterniond::Identity()};  // principal axes in the body's frame; they turn with the block
 
+  [[nodiscard]] bool varies() const { return !value.constant(); }  // with the temperature
   [[nodiscard]] bool isotropic() const { return ratio.maxCoeff() == ratio.minCoeff(); }
   [[nodiscard]] double mean(double temperature) const { return value(temperature) * ratio.mean(); }  // over the axes
 };

@@ -33,10 +33,6 @@ std::string words(const Rung& rung) {
   return rung.contact_model.empty() ? rung.integrator : rung.integrator + ", " + rung.contact_model;
 }
 
-}  // namespace
-
-namespace {
-
 // What is known of a probe at the output time nearest to the asked one.
 Reference columns_as_reference(std::vector<double> times, std::map<std::string, std::vector<double>> columns) {
   return

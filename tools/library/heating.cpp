@@ -1,7 +1,7 @@
 #include "tools/library/heating.h"
 
-#include <algorithm>
-#include <cmath>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,11 +30,11 @@ Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) 
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
   pile_ = run::placed_pile(scene_, packing);
   run::join(scene_, pile_);
-  const thermal::HeatModel model = run::heat_model(scene_, pile_);
+  auto model = std::make_shared<const thermal::HeatModel>(run::heat_model(scene_, pile_));
   if (scene_.heat->time.steady) {
-    steady_ = thermal::steady_state(model);
+    steady_ = thermal::steady_state(*model);
   } else {
-    run_.emplace(model, scene_.heat->time);
+    run_.emplace(std::move(model), scene_.heat->time, std::nullopt);
   }
 }
 
@@ -69,7 +69,7 @@ std::vector<double> Heating<dim>::next_outputs() const {
   if (!run_) return times;
   const thermal::TimeOptions& options = scene_.heat->time;
   for (double time = state().time; time < options.until; times.push_back(time)) {
-    time = std::min((std::floor(time / options.output_every + 1e-9) + 1) * options.output_every, options.until);
+    time = thermal::next_output(options, time);
   }
   return times;
 }

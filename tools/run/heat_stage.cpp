@@ -1,7 +1,6 @@
 #include "tools/run/heat_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -30,17 +29,11 @@ std::optional<thermal::HeatState> interrupted_state(const RunContext& context, c
   return thermal::read_state(context.files.restart(), key);
 }
 
-// Multiples of the output interval, and the end.
-double next_output(const thermal::TimeOptions& options, double time) {
-  const double next = (std::floor(time / options.output_every + 1e-9) + 1) * options.output_every;
-  return std::min(next, options.until);
-}
-
 template <int dim>
 void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& recorder) {
   const thermal::TimeOptions& options = context.scene.heat->time;
   while (run.state().time < options.until) {
-    run.advance_to(next_output(options, run.state().time), [&](double time) {
+    run.advance_to(thermal::next_output(options, run.state().time), [&](double time) {
       check_interrupt();
       context.progress.update(time / options.until, fmt::format("{:.4g} of {:.4g} s", time, options.until));
     });
@@ -95,7 +88,8 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
     scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;
   });
-  if (!outcome.pile.probes.empty()) {
+  const auto& probes = outcome.pile.probes;
+  if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {
     outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
   }
   if (context.estimate_space_error) {

@@ -52,7 +52,7 @@ template <int dim>
 thermal::HeatModel heat_model(const Scene& scene, const HeatedPile<dim>& pile) {
   thermal::HeatOptions options = *scene.heat;
   options.initial_field = pile.start;
-  return thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, options);
+  return thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, pile.joints, options);
 }
 
 #define SCREE_INSTANTIATE(dim)                                                               \

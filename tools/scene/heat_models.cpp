@@ -73,7 +73,7 @@ std::vector<std::string> materials_with(const Scene& scene, const Has& has) {
 }
 
 bool varies(const Material& material) {
-  const bool conductivity = material.conductivity && !material.conductivity->value.constant();
+  const bool conductivity = material.conductivity && material.conductivity->varies();
   return conductivity || (material.specific_heat && !material.specific_heat->constant());
 }
 
