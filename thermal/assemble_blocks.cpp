@@ -5,7 +5,7 @@
 
 #include "engine/base/threads.h"
 #include "engine/mesh/cells.h"
-#include "thermal/block_conduction.h"
+#include "thermal/repeated_cells.h"
 
 namespace scree::thermal {
 
@@ -14,34 +14,75 @@ namespace {
 constexpr int rows_in_chunk = 4096;
 
 template <int dim>
-struct WeightedSimplex {
-  mesh::Simplex<dim> nodes;
-  double weight;
-};
+bool has_cells(const mesh::BlockMesh<dim>& mesh, BlockId block) {
+  return mesh.blocks[block].cells.size() > 0;
+}
 
-// Every simplex that conducts and stores, and of each node those it belongs to, in their order.
+// Of each node the cells, or in a block without cells the elements, that it belongs to, in their order.
 template <int dim>
 struct Incidence {
-  std::vector<WeightedSimplex<dim>> simplices;
   std::vector<std::uint32_t> begin;  // of each node, and the end
   std::vector<std::uint32_t> of_node;
 
   explicit Incidence(const mesh::BlockMesh<dim>& mesh) : begin(mesh.nodes.size() + 1, 0) {
-    simplices.reserve(mesh.cells.empty() ? mesh.elements.size() : 2 * mesh.elements.size());
-    for (const mesh::Block& block : mesh.blocks) {
-      mesh::for_each_simplex(mesh, block, [&](const mesh::Simplex<dim>& nodes, double weight) {
-        simplices.push_back({nodes, weight});
-      });
-    }
-    for (const auto& simplex : simplices) {
-      for (const NodeId node : simplex.nodes) ++begin[node.index() + 1];
-    }
+    for_each_use(mesh, [&](NodeId node, std::uint32_t) { ++begin[node.index() + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     of_node.resize(begin.back());
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t s = 0; s < simplices.size(); ++s) {
-      for (const NodeId node : simplices[s].nodes) of_node[next[node.index()]++] = s;
+    for_each_use(mesh, [&](NodeId node, std::uint32_t piece) { of_node[next[node.index()]++] = piece; });
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_use(const mesh::BlockMesh<dim>& mesh, const Visit& visit) {
+    for (const mesh::Block& block : mesh.blocks) {
+      for (const CellId cell : block.cells) {
+        const mesh::Cell& corners = mesh.cells[cell];
+        for (std::size_t i = 0; i < mesh::corner_count(corners.kind); ++i) {
+          visit(corners.nodes[i], static_cast<std::uint32_t>(cell.index()));
+        }
+      }
+      if (block.cells.size() > 0) continue;
+      for (const ElementId element : block.elements) {
+        for (const NodeId node : mesh.elements[element]) visit(node, static_cast<std::uint32_t>(element.index()));
+      }
     }
+  }
+};
+
+// What conducts and stores: cells and elements, and the conductivity of each block at its constant value, or at 1 W/m/K.
+template <int dim>
+struct Pieces {
+  const mesh::BlockMesh<dim>& mesh;
+  Table<BlockId, Tensor<dim>> conductivity;
+  RepeatedCells<dim> repeated;
+
+  Pieces(const mesh::BlockMesh<dim>& all, const Table<MaterialId, Material>& materials)
+      : mesh(all), conductivity(conductivities(all, materials)), repeated(all, conductivity) {}
+
+  // Calls `use` with what the node has of a cell, and the cell.
+  template <class Use>
+  void corner(std::uint32_t cell, int node, BlockId block, const Use& use) const {
+    const mesh::Cell& corners = mesh.cells[CellId(cell)];
+    int at = 0;
+    while (corners.nodes[at].value() != node) ++at;
+    if (const auto* known = repeated.find(CellId(cell))) {
+      use((*known)[at], corners);
+    } else {
+      use(corner_of_cell<dim>(corners.kind, cell_points(mesh, corners), conductivity[block], at), corners);
+    }
+  }
+
+ private:
+  static Table<BlockId, Tensor<dim>> conductivities(const mesh::BlockMesh<dim>& mesh,
+                                                    const Table<MaterialId, Material>& materials) {
+    Table<BlockId, Tensor<dim>> all;
+    all.reserve(mesh.blocks.size());
+    for (const mesh::Block& block : mesh.blocks) {
+      const Conductivity& conductivity = *materials[mesh.bodies[block.body].material].conductivity;
+      all.push_back(conductivity.value.constant().value_or(1) * conductivity_ratios<dim>(conductivity, block));
+    }
+    return all;
   }
 };
 
@@ -56,19 +97,22 @@ struct Chunk {
 template <int dim>
 class RowSum {
  public:
-  RowSum(const mesh::BlockMesh<dim>& mesh, const Incidence<dim>& incidence, std::size_t nodes)
-      : mesh_(mesh), incidence_(incidence), slot_(nodes, -1) {}
+  RowSum(const Pieces<dim>& pieces, const Incidence<dim>& incidence)
+      : pieces_(pieces), incidence_(incidence), slot_(pieces.mesh.nodes.size(), -1) {}
 
-  // Appends the row of a node whose block conducts with this tensor.
-  void append(int node, const Tensor<dim>& conductivity, Chunk& chunk) {
+  // Appends the row of a node of the block.
+  void append(int node, BlockId block, Chunk& chunk) {
     row_.clear();
     for (std::uint32_t k = incidence_.begin[node]; k < incidence_.begin[node + 1]; ++k) {
-      const WeightedSimplex<dim>& simplex = incidence_.simplices[incidence_.of_node[k]];
-      const CornerMatrix<dim> conductance =
-          simplex.weight * element_conductance<dim>(corner_points<dim>(mesh_, simplex.nodes), conductivity);
-      int corner = 0;
-      while (simplex.nodes[corner].value() != node) ++corner;
-      for (int i = 0; i <= dim; ++i) add(simplex.nodes[i].value(), conductance(corner, i));
+      if (has_cells(pieces_.mesh, block)) {
+        pieces_.corner(incidence_.of_node[k], node, block, [&](const CornerOfCell& corner, const mesh::Cell& cell) {
+          for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) {
+            if (corner.conductance[i] != 0) add(cell.nodes[i].value(), corner.conductance[i]);
+          }
+        });
+      } else {
+        add(pieces_.mesh.elements[ElementId(incidence_.of_node[k])], node, pieces_.conductivity[block]);
+      }
     }
     std::sort(row_.begin(), row_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
     for (const Entry& entry : row_) {
@@ -84,6 +128,13 @@ class RowSum {
     double value;
   };
 
+  void add(const mesh::Simplex<dim>& nodes, int node, const Tensor<dim>& conductivity) {
+    const CornerMatrix<dim> conductance = element_conductance<dim>(corner_points<dim>(pieces_.mesh, nodes), conductivity);
+    int corner = 0;
+    while (nodes[corner].value() != node) ++corner;
+    for (int i = 0; i <= dim; ++i) add(nodes[i].value(), conductance(corner, i));
+  }
+
   void add(int column, double value) {
     int& slot = slot_[column];
     if (slot < 0) {
@@ -93,7 +144,7 @@ class RowSum {
     row_[slot].value += value;
   }
 
-  const mesh::BlockMesh<dim>& mesh_;
+  const Pieces<dim>& pieces_;
   const Incidence<dim>& incidence_;
   std::vector<int> slot_;
   std::vector<Entry> row_;
@@ -117,23 +168,21 @@ SparseMatrix joined(const std::vector<Chunk>& chunks, Eigen::Index size) {
 
 // The rows of the nodes whose block's conductivity varies, or of the others; the rest are empty.
 template <int dim>
-SparseMatrix rows_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatModel& model,
+SparseMatrix rows_of(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const HeatModel& model,
                      const Incidence<dim>& incidence, bool varying) {
+  const mesh::BlockMesh<dim>& mesh = pieces.mesh;
   const auto size = static_cast<int>(mesh.nodes.size());
   std::vector<Chunk> chunks(static_cast<std::size_t>((size + rows_in_chunk - 1) / rows_in_chunk));
 #pragma omp parallel if (size >= rows_worth_sharing)
   {
-    RowSum<dim> sum(mesh, incidence, mesh.nodes.size());
+    RowSum<dim> sum(pieces, incidence);
 #pragma omp for schedule(dynamic)
     for (std::size_t c = 0; c < chunks.size(); ++c) {
       const int first = static_cast<int>(c) * rows_in_chunk;
       for (int node = first; node < std::min(size, first + rows_in_chunk); ++node) {
-        const mesh::Block& block = mesh.blocks[model.blocks[NodeId(static_cast<std::size_t>(node))]];
-        const Conductivity& conductivity = *materials[mesh.bodies[block.body].material].conductivity;
-        if (conductivity.varies() == varying) {
-          const double value = conductivity.value.constant().value_or(1);
-          sum.append(node, value * conductivity_ratios<dim>(conductivity, block), chunks[c]);
-        }
+        const BlockId block = model.blocks[NodeId(static_cast<std::size_t>(node))];
+        const bool varies = materials[mesh.bodies[mesh.blocks[block].body].material].conductivity->varies();
+        if (varies == varying) sum.append(node, block, chunks[c]);
         chunks[c].ends.push_back(static_cast<int>(chunks[c].columns.size()));
       }
     }
@@ -142,19 +191,25 @@ SparseMatrix rows_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, M
 }
 
 template <int dim>
-void set_capacities(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                    const Incidence<dim>& incidence, HeatModel& model) {
+void set_capacities(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const Incidence<dim>& incidence,
+                    HeatModel& model) {
 #pragma omp parallel for schedule(static) if (model.capacity.size() >= rows_worth_sharing)
-  for (Eigen::Index node = 0; node < model.capacity.size(); ++node) {
-    const mesh::Block& block = mesh.blocks[model.blocks[NodeId(static_cast<std::size_t>(node))]];
-    const Material& material = materials[mesh.bodies[block.body].material];
-    double mass = 0;
+  for (Eigen::Index row = 0; row < model.capacity.size(); ++row) {
+    const auto node = static_cast<int>(row);
+    const BlockId block = model.blocks[NodeId(static_cast<std::size_t>(node))];
+    const Material& material = materials[pieces.mesh.bodies[pieces.mesh.blocks[block].body].material];
+    double volume = 0;
     for (std::uint32_t k = incidence.begin[node]; k < incidence.begin[node + 1]; ++k) {
-      const WeightedSimplex<dim>& simplex = incidence.simplices[incidence.of_node[k]];
-      mass += simplex.weight * corner_mass<dim>(mesh::simplex_volume<dim>(mesh, simplex.nodes), *material.density);
+      if (has_cells(pieces.mesh, block)) {
+        pieces.corner(incidence.of_node[k], node, block,
+                      [&](const CornerOfCell& corner, const mesh::Cell&) { volume += corner.volume; });
+      } else {
+        volume += mesh::element_volume(pieces.mesh, ElementId(incidence.of_node[k]));
+      }
     }
-    model.capacity[node] = mass * (*material.specific_heat)(model.initial[node]);
-    if (model.varying) model.varying->mass[node] = mass;
+    const double mass = corner_mass<dim>(volume, *material.density);
+    model.capacity[row] = mass * (*material.specific_heat)(model.initial[row]);
+    if (model.varying) model.varying->mass[row] = mass;
   }
 }
 
@@ -163,11 +218,12 @@ void set_capacities(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Ma
 template <int dim>
 SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
   const Incidence<dim> incidence(mesh);
-  set_capacities(mesh, materials, incidence, model);
+  const Pieces<dim> pieces(mesh, materials);
+  set_capacities(pieces, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
                                       [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
-  if (any_varies) model.varying->unit_conductance = rows_of(mesh, materials, model, incidence, true);
-  return rows_of(mesh, materials, model, incidence, false);
+  if (any_varies) model.varying->unit_conductance = rows_of(pieces, materials, model, incidence, true);
+  return rows_of(pieces, materials, model, incidence, false);
 }
 
 template SparseMatrix assemble_blocks<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, HeatModel&);

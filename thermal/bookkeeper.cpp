@@ -23,12 +23,12 @@ Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   ledger.by_boundary.assign(model_.holds.size(), 0.0);
   ledger.by_applied.assign(model_.loads.size(), 0.0);
   ledger.by_surroundings.assign(model_.exchanges.size(), 0.0);
-  const Eigen::VectorXd stored = balance_.stored(model_.initial, temperature);
   for (const NodeId node : model_.fixed_nodes) {
-    ledger.start_jump += stored[node.value()];
-    ledger.turnover += std::abs(stored[node.value()]);
+    const double stored = balance_.stored_at(node, model_.initial, temperature);
+    ledger.start_jump += stored;
+    ledger.turnover += std::abs(stored);
   }
-  ledger.stored = stored.sum();
+  ledger.stored = balance_.stored_in_all(model_.initial, temperature);
   return ledger;
 }
 
@@ -37,16 +37,15 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
   std::vector<double> applied(model_.loads.size(), 0.0);
   std::vector<double> exchanged(model_.exchanges.size(), 0.0);
   const Eigen::VectorXd after = before + step.change;
-  const Eigen::VectorXd stored = balance_.stored(before, after);
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-    held[model_.fixed_hold[i]] += stored[model_.fixed_nodes[i].value()];
+    held[model_.fixed_hold[i]] += balance_.stored_at(model_.fixed_nodes[i], before, after);
   }
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
-    const Eigen::VectorXd heating = balance_.heating(stage.temperature, drive);
+    const Eigen::VectorXd heating = balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
     for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-      held[model_.fixed_hold[i]] -= duration * heating[model_.fixed_nodes[i].value()];
+      held[model_.fixed_hold[i]] -= duration * heating[static_cast<Eigen::Index>(i)];
     }
     for (std::size_t l = 0; l < applied.size(); ++l) applied[l] += duration * drive.by_load[l];
     for (std::size_t e = 0; e < exchanged.size(); ++e) {
@@ -56,7 +55,7 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
   enter(held, ledger.by_boundary, ledger.turnover);
   enter(applied, ledger.by_applied, ledger.turnover);
   enter(exchanged, ledger.by_surroundings, ledger.turnover);
-  ledger.stored = balance_.stored(model_.initial, after).sum();
+  ledger.stored = balance_.stored_in_all(model_.initial, after);
 }
 
 }  // namespace scree::thermal

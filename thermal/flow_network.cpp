@@ -8,24 +8,42 @@ namespace {
 
 // Columns are rows: the matrix is symmetric.
 template <class Sum>
-Eigen::VectorXd summed(const SparseMatrix& matrix, const Eigen::VectorXd& temperature) {
+double row_sum(const SparseMatrix& matrix, Eigen::Index row, const Eigen::VectorXd& temperature) {
+  Sum sum = 0;
+  for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+    sum += entry.value() * (temperature[entry.row()] - temperature[row]);
+  }
+  return static_cast<double>(sum);
+}
+
+Eigen::VectorXd plainly(const RowRuns& rows, const Eigen::VectorXd& temperature) {
+  Eigen::VectorXd heat(temperature.size());
+  rows.for_each_flow<1>(temperature.data(), [&](int row, const double* flow) { heat[row] = *flow; });
+  return heat;
+}
+
+Eigen::VectorXd extended(const SparseMatrix& matrix, const Eigen::VectorXd& temperature) {
   Eigen::VectorXd heat(temperature.size());
 #pragma omp parallel for schedule(static) if (heat.size() >= rows_worth_sharing)
-  for (Eigen::Index row = 0; row < heat.size(); ++row) {
-    Sum sum = 0;
-    for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
-      sum += entry.value() * (temperature[entry.row()] - temperature[row]);
-    }
-    heat[row] = static_cast<double>(sum);
-  }
+  for (Eigen::Index row = 0; row < heat.size(); ++row) heat[row] = row_sum<long double>(matrix, row, temperature);
   return heat;
 }
 
 }  // namespace
 
+FlowNetwork::FlowNetwork(const SparseMatrix* conductance, Sums sums) : conductance_(conductance), sums_(sums) {
+  if (sums == Sums::plain && !empty()) rows_ = RowRuns(*conductance);
+}
+
 Eigen::VectorXd FlowNetwork::leaving(const Eigen::VectorXd& temperature) const {
   if (empty()) return Eigen::VectorXd::Zero(temperature.size());
-  return sums_ == Sums::plain ? summed<double>(*conductance_, temperature) : summed<long double>(*conductance_, temperature);
+  return sums_ == Sums::plain ? plainly(rows_, temperature) : extended(*conductance_, temperature);
+}
+
+double FlowNetwork::leaving(NodeId node, const Eigen::VectorXd& temperature) const {
+  if (empty()) return 0;
+  return sums_ == Sums::plain ? row_sum<double>(*conductance_, node.value(), temperature)
+                              : row_sum<long double>(*conductance_, node.value(), temperature);
 }
 
 }  // namespace scree::thermal

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "thermal/heat_model.h"
+#include "thermal/row_runs.h"
 
 namespace scree::thermal {
 
@@ -19,16 +20,27 @@ enum class Sums { plain, extended };
 class FlowNetwork {
  public:
   // Refers to the matrix, symmetric to the bit; without one nothing flows.
-  FlowNetwork(const SparseMatrix* conductance, Sums sums) : conductance_(conductance), sums_(sums) {}
+  FlowNetwork(const SparseMatrix* conductance, Sums sums);
 
   // K T: the heat that leaves each node [W].
   [[nodiscard]] Eigen::VectorXd leaving(const Eigen::VectorXd& temperature) const;
+
+  // Of one node.
+  [[nodiscard]] double leaving(NodeId node, const Eigen::VectorXd& temperature) const;
+
+  // Calls use(row, flow) for every row on all threads: flow[c] is the heat that leaves the row's node, summed plainly, at
+  // `columns` columns of temperatures that lie side by side [W].
+  template <int columns, class Use>
+  void for_each_flow(const double* temperature, const Use& use) const {
+    rows_.for_each_flow<columns>(temperature, use);
+  }
 
   [[nodiscard]] bool empty() const { return conductance_ == nullptr || conductance_->nonZeros() == 0; }
 
  private:
   const SparseMatrix* conductance_;
   Sums sums_;
+  RowRuns rows_;  // for plain sums
 };
 
 }  // namespace scree::thermal

@@ -1,5 +1,7 @@
 #include "thermal/heat_balance.h"
 
+#include <algorithm>
+
 #include "thermal/exchange.h"
 
 namespace scree::thermal {
@@ -35,10 +37,15 @@ HeatBalance::HeatBalance(const HeatModel& model, Sums sums)
       unit_flows_(model.varying ? &model.varying->unit_conductance : nullptr, sums) {}
 
 Eigen::VectorXd HeatBalance::heating(const Eigen::VectorXd& temperature, const Drive& drive) const {
-  Eigen::VectorXd heat = drive.load - flows_.leaving(temperature);
+  Eigen::VectorXd heat = driven(temperature, drive) - flows_.leaving(temperature);
   if (!unit_flows_.empty()) {
     heat -= unit_flows_.leaving(at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral));
   }
+  return heat;
+}
+
+Eigen::VectorXd HeatBalance::driven(const Eigen::VectorXd& temperature, const Drive& drive) const {
+  Eigen::VectorXd heat = drive.load;
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
     Eigen::Index row = 0;
@@ -49,11 +56,46 @@ Eigen::VectorXd HeatBalance::heating(const Eigen::VectorXd& temperature, const D
   return heat;
 }
 
+Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
+                                        const Drive& drive) const {
+  Eigen::VectorXd heat(static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    heat[static_cast<Eigen::Index>(i)] = drive.load[nodes[i].value()] - flows_.leaving(nodes[i], temperature);
+  }
+  if (!unit_flows_.empty()) {
+    const Eigen::VectorXd phi = at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral);
+    for (std::size_t i = 0; i < nodes.size(); ++i) heat[static_cast<Eigen::Index>(i)] -= unit_flows_.leaving(nodes[i], phi);
+  }
+  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+    const Exchange& exchange = model_.exchanges[e];
+    Eigen::Index row = 0;
+    for (const NodeId node : exchange.on.nodes) {
+      const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
+      if (found != nodes.end() && *found == node) {
+        heat[found - nodes.begin()] += exchanged_heat(exchange.law, drive.exchanges[e], row, temperature[node.value()]);
+      }
+      ++row;
+    }
+  }
+  return heat;
+}
+
 Eigen::VectorXd HeatBalance::stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
   if (!model_.varying) return model_.capacity.cwiseProduct(to - from);
   const auto heat = &VaryingProperties::specific_heat;
   const Eigen::VectorXd before = at_nodes(*model_.varying, heat, from, integral);
   return model_.varying->mass.cwiseProduct(at_nodes(*model_.varying, heat, to, integral) - before);
+}
+
+double HeatBalance::stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  const int row = node.value();
+  if (!model_.varying) return model_.capacity[row] * (to[row] - from[row]);
+  const Curve& heat = model_.varying->specific_heat[model_.varying->material[node]];
+  return model_.varying->mass[row] * (integral(heat, to[row]) - integral(heat, from[row]));
+}
+
+double HeatBalance::stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  return model_.varying ? stored(from, to).sum() : model_.capacity.cwiseProduct(to - from).sum();
 }
 
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {

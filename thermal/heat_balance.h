@@ -27,13 +27,26 @@ class HeatBalance {
   // F: heat into each node, from its neighbours and from outside [W].
   [[nodiscard]] Eigen::VectorXd heating(const Eigen::VectorXd& temperature, const Drive& drive) const;
 
+  // What of F comes from outside, loads and exchanges.
+  [[nodiscard]] Eigen::VectorXd driven(const Eigen::VectorXd& temperature, const Drive& drive) const;
+
+  // F of some nodes, in ascending order, one entry each.
+  [[nodiscard]] Eigen::VectorXd heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
+                                           const Drive& drive) const;
+
   // Heat that a change of temperature stores in each node [J].
   [[nodiscard]] Eigen::VectorXd stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+  // In a single one, and in all of them together.
+  [[nodiscard]] double stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+  [[nodiscard]] double stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
   [[nodiscard]] Linearised linearised(const Eigen::VectorXd& temperature, const Drive& drive) const;
 
   // J times a small change of temperature, at fixed nodes too [W].
   [[nodiscard]] Eigen::VectorXd lost(const Eigen::VectorXd& change, const Linearised& at) const;
+
+  // K, without U.
+  [[nodiscard]] const FlowNetwork& flows() const { return flows_; }
 
   // Through one exchange [W].
   [[nodiscard]] double exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const;

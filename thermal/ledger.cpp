@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "thermal/heat_run.h"
+#include "thermal/time_scheme.h"
 
 namespace scree::thermal {
 
@@ -15,6 +17,23 @@ double Ledger::residual() const {
 
 double Ledger::relative_residual() const {
   return turnover > 0 ? residual() / turnover : 0;
+}
+
+std::vector<NodeId> ledger_nodes(const HeatModel& model) {
+  std::vector<NodeId> nodes = model.fixed_nodes;
+  const auto add_joined = [&](const SparseMatrix& matrix) {
+    for (const NodeId node : model.fixed_nodes) {
+      for (SparseMatrix::InnerIterator entry(matrix, node.value()); entry; ++entry) {
+        nodes.push_back(NodeId(static_cast<std::size_t>(entry.row())));
+      }
+    }
+  };
+  add_joined(model.conductance);
+  if (model.varying && model.varying->unit_conductance.nonZeros() > 0) add_joined(model.varying->unit_conductance);
+  for (const Exchange& exchange : model.exchanges) nodes.insert(nodes.end(), exchange.on.nodes.begin(), exchange.on.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 }  // namespace scree::thermal

@@ -18,7 +18,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/threads.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
@@ -31,7 +30,6 @@ namespace {
 
 // Temperatures and error side by side: a product reads the matrix once for both.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-using Pair = Eigen::Array2d;
 
 constexpr int least_stages = 3;
 
@@ -66,48 +64,76 @@ double estimate_of(int stages) {
   return (third - 1.0 / 6) / (0.25 - third);
 }
 
+// S at the nodes that the ledger reads.
+class WatchedMean {
+ public:
+  explicit WatchedMean(const std::vector<NodeId>& nodes) : nodes_(nodes), older_(nodes.size(), 0.0), newer_(nodes.size(), 0.0) {}
+
+  // Stage j, from D of the one before.
+  void advance(const Coefficients& with, const Columns& increment) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      older_[i] = with.mu * newer_[i] + with.nu * older_[i] + with.product * increment(nodes_[i].value(), 0);
+    }
+    older_.swap(newer_);
+  }
+
+  [[nodiscard]] Eigen::VectorXd added_to(Eigen::VectorXd temperature) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) temperature[nodes_[i].value()] += newer_[i];
+    return temperature;
+  }
+
+ private:
+  const std::vector<NodeId>& nodes_;
+  std::vector<double> older_, newer_;
+};
+
 class StabilisedScheme : public TimeScheme {
  public:
   explicit StabilisedScheme(const HeatModel& model)
-      : model_(model),
-        inverse_(model.capacity.cwiseInverse()),
+      : inverse_(model.capacity.cwiseInverse()),
         drives_(model),
         balance_(model, Sums::plain),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
-        stable_(stable_step(model).step) {
+        stable_(stable_step(model).step),
+        watched_(ledger_nodes(model)) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
   }
 
   Step step(const Instant& from, double length) override {
     const int stages = std::isinf(stable_) ? least_stages : stages_for(length, stable_);
-    const Columns start = starting_rates(from, length);
-    Columns older = Columns::Zero(start.rows(), 2);
-    Columns newer = first_coefficient(stages) * start;
-    Eigen::VectorXd older_mean = Eigen::VectorXd::Zero(start.rows());
-    Eigen::VectorXd mean = older_mean;
+    start(from, length);
+    older_.setZero(start_.rows(), 2);
+    newer_ = first_coefficient(stages) * start_;
+    WatchedMean mean(watched_);
     for (int j = 2; j <= stages; ++j) {
       const Coefficients with = coefficients(j, stages);
-      older_mean = with.mu * mean + with.nu * older_mean + with.product * newer.col(0);
-      advance(with, length, start, newer, older);
-      older.swap(newer);
-      older_mean.swap(mean);
+      mean.advance(with, newer_);
+      advance(with, length);
+      older_.swap(newer_);
     }
     Step result;
-    result.change = newer.col(0);
-    const Columns last = rates(newer, length);  // h L D
-    const Eigen::VectorXd h3 = -result.change + start.col(0) - 0.5 * last.col(0);
-    const Eigen::VectorXd local = estimate_of(stages) * h3;
-    result.error = from.error + newer.col(1) + local;
-    result.local_error = local.lpNorm<Eigen::Infinity>();
-    result.stages = {{1, from.time + length, from.temperature + mean}};
+    result.change = newer_.col(0);
+    rates(newer_, length, older_);  // h L D
+    const double estimate = estimate_of(stages);
+    result.error.resize(start_.rows());
+    for (Eigen::Index row = 0; row < start_.rows(); ++row) {
+      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
+      result.local_error = std::max(result.local_error, std::abs(local));
+      result.error[row] = from.error[row] + newer_(row, 1) + local;
+    }
+    result.stages = {{1, from.time + length, mean.added_to(from.temperature)}};
     return result;
   }
 
   // The local error of a short step is h^3 T'''/18 at most.
   double first_step(const Instant& from, double allowed) override {
-    Columns derivative = starting_rates({from.time, from.temperature, Eigen::VectorXd::Zero(inverse_.size())}, 1);
-    for (int order = 2; order <= 3; ++order) derivative = rates(derivative, 1);
-    const double largest = derivative.col(0).lpNorm<Eigen::Infinity>();
+    start({from.time, from.temperature, Eigen::VectorXd::Zero(inverse_.size())}, 1);
+    newer_ = start_;
+    for (int order = 2; order <= 3; ++order) {
+      rates(newer_, 1, older_);
+      older_.swap(newer_);
+    }
+    const double largest = newer_.col(0).lpNorm<Eigen::Infinity>();
     return largest > 0 ? std::cbrt(18 * allowed / largest) : std::numeric_limits<double>::infinity();
   }
 
@@ -119,54 +145,56 @@ class StabilisedScheme : public TimeScheme {
   }
 
  private:
-  // h C^-1 F of the temperatures, and of the error, which nothing drives.
-  Columns starting_rates(const Instant& from, double length) {
-    Columns start(inverse_.size(), 2);
-    start.col(0) = length * inverse_.cwiseProduct(balance_.heating(from.temperature, drives_.at(from.time)));
-    start.col(1) = -length * inverse_.cwiseProduct(balance_.lost(from.error, linear_));
-    return start;
-  }
-
-  // (K + B) x of one row, as flows between pairs of nodes.
-  [[nodiscard]] Pair leaving(const Columns& x, Eigen::Index row) const {
-    const Pair here = x.row(row).transpose();
-    Pair sum = linear_.loss[row] * here;
-    const int* outer = model_.conductance.outerIndexPtr();
-    const int* inner = model_.conductance.innerIndexPtr();
-    const double* values = model_.conductance.valuePtr();
-    for (int k = outer[row]; k < outer[row + 1]; ++k) {
-      sum += values[k] * (x.row(inner[k]).transpose().array() - here);
-    }
-    return sum;
+  // h C^-1 F of the temperatures, and of the error, which nothing drives: the flows of both in one product.
+  void start(const Instant& from, double length) {
+    newer_.resize(from.temperature.size(), 2);
+    newer_.col(0) = from.temperature;
+    newer_.col(1) = from.error;
+    start_.resize(newer_.rows(), 2);
+    const Eigen::VectorXd driven = balance_.driven(from.temperature, drives_.at(from.time));
+    balance_.flows().for_each_flow<2>(newer_.data(), [&](int row, const double* flow) {
+      const double scale = length * inverse_[row];
+      start_(row, 0) = scale * (driven[row] - flow[0]);
+      start_(row, 1) = -scale * (flow[1] + linear_.loss[row] * newer_(row, 1));
+    });
   }
 
   // h L x.
-  [[nodiscard]] Columns rates(const Columns& x, double length) const {
-    Columns result(x.rows(), 2);
-#pragma omp parallel for schedule(static) if (x.rows() >= rows_worth_sharing)
-    for (Eigen::Index row = 0; row < x.rows(); ++row) {
-      result.row(row) = (length * inverse_[row]) * leaving(x, row).matrix().transpose();
-    }
-    return result;
+  void rates(const Columns& x, double length, Columns& result) const {
+    result.resize(x.rows(), 2);
+    balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) {
+      const double scale = length * inverse_[row];
+      for (int c = 0; c < 2; ++c) result(row, c) = scale * (flow[c] + linear_.loss[row] * x(row, c));
+    });
   }
 
-  // D_j in the place of D_j-2.
-  void advance(const Coefficients& with, double length, const Columns& start, const Columns& newer, Columns& older) const {
-#pragma omp parallel for schedule(static) if (newer.rows() >= rows_worth_sharing)
-    for (Eigen::Index row = 0; row < newer.rows(); ++row) {
-      const Pair flow = leaving(newer, row);
-      const Pair next = with.mu * newer.row(row).transpose().array() + with.nu * older.row(row).transpose().array() -
-                        (with.product * length * inverse_[row]) * flow + with.start * start.row(row).transpose().array();
-      older.row(row) = next.matrix().transpose();
-    }
+  // Stage j in the place of j-2.
+  void advance(const Coefficients& with, double length) {
+    const double* loss = linear_.loss.data();
+    const double* inverse = inverse_.data();
+    const double scale = with.product * length;
+    balance_.flows().for_each_flow<2>(newer_.data(), [&, loss, inverse, scale](int row, const double* flow) {
+      const Pair here = pair(newer_, row);
+      Eigen::Map<Pair> increment(older_.data() + 2 * static_cast<std::ptrdiff_t>(row));
+      increment = with.mu * here + with.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
+                  with.start * pair(start_, row);
+    });
   }
 
-  const HeatModel& model_;
+  using Pair = Eigen::Array2d;
+  using ConstPair = Eigen::Map<const Pair>;
+  static ConstPair pair(const Columns& columns, int row) {
+    return ConstPair(columns.data() + 2 * static_cast<std::ptrdiff_t>(row));
+  }
+
   Eigen::VectorXd inverse_;  // of the capacity, 0 for a fixed node [K/J]
   Drives drives_;
   HeatBalance balance_;
   Linearised linear_;  // the same at all times
   double stable_;      // of eq. (8) [s]
+  std::vector<NodeId> watched_;
+  // Of the step: h C^-1 F at its start, and D of the last two stages.
+  Columns start_, newer_, older_;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Instant {
 };
 
 // The flows of a step are a weighted mean of those at its stages: heat content changes by exactly that, which is why the
-// ledger closes.
+// ledger closes. What it reads are the temperatures of ledger_nodes(); the others may be anything.
 struct Stage {
   double weight = 1;            // they add up to 1
   double time = 0;              // [s]
@@ -72,6 +72,10 @@ std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model);
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model);
+
+// The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them, and those that
+// exchange heat with surroundings. Ascending.
+std::vector<NodeId> ledger_nodes(const HeatModel& model);
 
 bool can_be_stabilised(const HeatModel& model);
 
