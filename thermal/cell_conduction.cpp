@@ -41,8 +41,8 @@ CellPoints<dim> cell_points(const mesh::BlockMesh<dim>& mesh, const mesh::Cell& 
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                         \
-  template CornerOfCell corner_of_cell<dim>(mesh::CellKind, const CellPoints<dim>&, const Tensor<dim>&, int);           \
+#define SCREE_INSTANTIATE(dim)                                                                                \
+  template CornerOfCell corner_of_cell<dim>(mesh::CellKind, const CellPoints<dim>&, const Tensor<dim>&, int); \
   template CellPoints<dim> cell_points<dim>(const mesh::BlockMesh<dim>&, const mesh::Cell&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -30,7 +30,8 @@ std::vector<NodeId> ledger_nodes(const HeatModel& model) {
   };
   add_joined(model.conductance);
   if (model.varying && model.varying->unit_conductance.nonZeros() > 0) add_joined(model.varying->unit_conductance);
-  for (const Exchange& exchange : model.exchanges) nodes.insert(nodes.end(), exchange.on.nodes.begin(), exchange.on.nodes.end());
+  for (const Exchange& exchange : model.exchanges)
+    nodes.insert(nodes.end(), exchange.on.nodes.begin(), exchange.on.nodes.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -22,8 +22,8 @@ std::int64_t nearest(double value) {
 template <int dim>
 struct Shape {
   std::int64_t kind = 0;
-  std::int64_t exponent = 0;                                  // of the unit, 2^exponent m
-  std::array<double, static_cast<std::size_t>(dim * dim)> conductivity{};
+  std::int64_t exponent = 0;  // of the unit, 2^exponent m
+  std::array<double, static_cast<std::size_t>(dim* dim)> conductivity{};
   std::array<std::int64_t, static_cast<std::size_t>(7 * dim)> edges{};  // from the first corner to the others, in units
 
   Shape(const mesh::Cell& cell, const CellPoints<dim>& points, const Tensor<dim>& tensor)

@@ -67,7 +67,8 @@ double estimate_of(int stages) {
 // S at the nodes that the ledger reads.
 class WatchedMean {
  public:
-  explicit WatchedMean(const std::vector<NodeId>& nodes) : nodes_(nodes), older_(nodes.size(), 0.0), newer_(nodes.size(), 0.0) {}
+  explicit WatchedMean(const std::vector<NodeId>& nodes)
+      : nodes_(nodes), older_(nodes.size(), 0.0), newer_(nodes.size(), 0.0) {}
 
   // Stage j, from D of the one before.
   void advance(const Coefficients& with, const Columns& increment) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
-#include <vector>
+
+#include "engine/mesh/lone_faces.h"
 
 namespace scree::mesh {
 
@@ -20,81 +20,33 @@ std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element
   }
 }
 
-// A face of an element among those with the same least node: its other nodes in ascending order, and its place among all faces
-// of its block.
+}  // namespace
+
 template <int dim>
-struct FaceUse {
-  std::array<NodeId, dim - 1> key;
-  std::uint32_t place;
-
-  friend auto operator<=>(const FaceUse&, const FaceUse&) = default;
-};
-
-// The faces of a block by their least node: a list to go through in linear time, whatever the block's size.
-template <int dim>
-class FacesByNode {
- public:
-  FacesByNode(const BlockMesh<dim>& mesh, const Block& block)
-      : first_(block.nodes.size() == 0 ? 0 : (*block.nodes.begin()).index()), begin_(block.nodes.size() + 1) {
-    const std::size_t places = block.elements.size() * (dim + 1);
-    for (std::size_t place = 0; place < places; ++place) ++begin_[least(sorted_face(mesh, block, place)) + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    uses_.resize(places);
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t place = 0; place < places; ++place) {
-      const auto nodes = sorted_face(mesh, block, place);
-      FaceUse<dim>& use = uses_[next[least(nodes)]++];
-      std::copy(nodes.begin() + 1, nodes.end(), use.key.begin());
-      use.place = static_cast<std::uint32_t>(place);
-    }
-  }
-
-  // The places of the faces that stand alone, ascending.
-  std::vector<std::uint32_t> boundary() {
-    std::vector<std::uint32_t> alone;
-    for (std::size_t node = 0; node + 1 < begin_.size(); ++node) {
-      const auto begin = uses_.begin() + begin_[node];
-      const auto end = uses_.begin() + begin_[node + 1];
-      std::sort(begin, end);
-      for (auto use = begin; use != end;) {
-        const auto next = std::find_if(use, end, [&](const FaceUse<dim>& other) { return other.key != use->key; });
-        if (next == use + 1) alone.push_back(use->place);
-        use = next;
+void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId id, Table<FaceId, Face<dim>>& faces) {
+  const Block& block = mesh.blocks[id];
+  const auto for_each_face = [&](const auto& visit) {
+    for (const ElementId element : block.elements) {
+      for (int corner = 0; corner <= dim; ++corner) {
+        const auto nodes = opposite_face<dim>(mesh.elements[element], corner);
+        std::array<std::uint32_t, dim> face;
+        std::transform(nodes.begin(), nodes.end(), face.begin(),
+                       [&](NodeId node) { return static_cast<std::uint32_t>(node.index() - block.nodes.first()); });
+        std::sort(face.begin(), face.end());
+        visit(face);
       }
     }
-    std::sort(alone.begin(), alone.end());
-    return alone;
-  }
-
- private:
-  static std::array<NodeId, dim> sorted_face(const BlockMesh<dim>& mesh, const Block& block, std::size_t place) {
-    auto nodes = opposite_face<dim>(mesh.elements[block.elements[place / (dim + 1)]], static_cast<int>(place % (dim + 1)));
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  }
-  std::size_t least(const std::array<NodeId, dim>& nodes) const { return nodes.front().index() - first_; }
-
-  std::size_t first_;                 // node of the block
-  std::vector<std::uint32_t> begin_;  // of each node in uses_, and the end
-  std::vector<FaceUse<dim>> uses_;
-};
-
-// The two uses of an inner face have the same nodes; what stands alone is boundary.
-template <int dim>
-void add_block_faces(const BlockMesh<dim>& mesh, BlockId block, Table<FaceId, Face<dim>>& faces) {
-  const auto elements = mesh.blocks[block].elements;
-  for (const std::uint32_t place : FacesByNode<dim>(mesh, mesh.blocks[block]).boundary()) {
-    const ElementId element = elements[place / (dim + 1)];
-    faces.push_back({opposite_face<dim>(mesh.elements[element], static_cast<int>(place % (dim + 1))), element, block});
+  };
+  for (const std::uint32_t place : lone_faces<dim>(block.nodes.size(), for_each_face)) {
+    const ElementId element = block.elements[place / (dim + 1)];
+    faces.push_back({opposite_face<dim>(mesh.elements[element], static_cast<int>(place % (dim + 1))), element, id});
   }
 }
-
-}  // namespace
 
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh) {
   Table<FaceId, Face<dim>> faces;
-  for (const BlockId block : mesh.blocks.ids()) add_block_faces(mesh, block, faces);
+  for (const BlockId block : mesh.blocks.ids()) add_boundary_faces(mesh, block, faces);
   return faces;
 }
 
@@ -153,13 +105,14 @@ Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh) {
   return owner;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                    \
-  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&);                   \
-  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);                          \
-  template double simplex_volume<dim>(const BlockMesh<dim>&, const std::array<NodeId, dim + 1>&); \
-  template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);                        \
-  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);                       \
-  template double mean_edge<dim>(const BlockMesh<dim>&);                                          \
+#define SCREE_INSTANTIATE(dim)                                                                      \
+  template Table<FaceId, Face<dim>> boundary_faces<dim>(const BlockMesh<dim>&);                     \
+  template void add_boundary_faces<dim>(const BlockMesh<dim>&, BlockId, Table<FaceId, Face<dim>>&); \
+  template double element_volume<dim>(const BlockMesh<dim>&, ElementId);                            \
+  template double simplex_volume<dim>(const BlockMesh<dim>&, const std::array<NodeId, dim + 1>&);   \
+  template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);                          \
+  template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);                         \
+  template double mean_edge<dim>(const BlockMesh<dim>&);                                            \
   template Table<ElementId, BlockId> element_blocks<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -78,6 +78,10 @@ struct Face {
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh);
 
+// Adds those of one block.
+template <int dim>
+void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId block, Table<FaceId, Face<dim>>& faces);
+
 // Signed area (2-D, times unit thickness) or volume (3-D) of an element; positive for a well-oriented one.
 template <int dim>
 double element_volume(const BlockMesh<dim>& mesh, ElementId element);

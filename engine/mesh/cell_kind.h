@@ -10,11 +10,17 @@
 #include <span>
 #include <vector>
 
+#include <boost/container/static_vector.hpp>
+
 namespace scree::mesh {
 
 enum class CellKind { quadrilateral, wedge, hexahedron };
 
 using CornerList = std::span<const std::size_t>;
+
+// Of one cell: at most the ten of a hexahedron's two splits.
+template <class Simplex>
+using SimplexList = boost::container::static_vector<Simplex, 10>;
 
 // How many corners a cell has: the entries of its nodes that count.
 std::size_t corner_count(CellKind kind);
@@ -37,8 +43,8 @@ std::size_t split_count(CellKind kind);
 // the same smallest node on the face they share, and so cut it alike (Dompierre et al., "How to subdivide pyramids, prisms and
 // hexahedra into tetrahedra", 1999; by their rule a hexahedron has 5 or 6, by this one always 6). Positively oriented.
 template <int dim, class Node>
-std::vector<std::array<Node, dim + 1>> split_by_smallest(CellKind kind, const std::array<Node, 8>& nodes) {
-  std::vector<std::array<Node, dim + 1>> simplices;
+SimplexList<std::array<Node, dim + 1>> split_by_smallest(CellKind kind, const std::array<Node, 8>& nodes) {
+  SimplexList<std::array<Node, dim + 1>> simplices;
   const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(corner_count(kind));
   const Node apex = *std::min_element(nodes.begin(), end);
   const auto add = [&](auto... outward) {

@@ -51,6 +51,8 @@ SimplexMesh<3> extruded(const BodySpec& body, const SimplexMesh<2>& base, double
   const std::size_t layers = steps(height, body.mesh_size);
   expect_reasonable(body, 6 * static_cast<double>(bases.size()) * static_cast<double>(layers));
   RawMesh raw;
+  raw.points.reserve((layers + 1) * base.nodes.size());
+  raw.cells.reserve(layers * bases.size());
   for (std::size_t layer = 0; layer <= layers; ++layer) {
     for (const Point<2>& node : base.nodes) raw.points.emplace_back(node.x(), node.y(), coordinate(height, layer, layers));
   }

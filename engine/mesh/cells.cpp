@@ -9,7 +9,8 @@ namespace {
 void add_cell_block(const BlockMesh<3>& mesh, BlockId block, Table<FaceId, WeightedFace<3>>& faces) {
   const auto range = mesh.blocks[block].cells;
   const std::span cells(mesh.cells.raw().data() + range.first(), range.size());
-  for_each_outer_face(cells, [&](std::size_t c, CornerList corners) {
+  const auto index = [first = mesh.blocks[block].nodes.first()](NodeId node) { return node.index() - first; };
+  for_each_outer_face(cells, mesh.blocks[block].nodes.size(), index, [&](std::size_t c, CornerList corners) {
     const auto& nodes = cells[c].nodes;
     const double weight = corners.size() == 3 ? 1.0 : 0.5;
     for (const auto& [i, j, k] : face_triangles(corners.size())) {
@@ -21,9 +22,9 @@ void add_cell_block(const BlockMesh<3>& mesh, BlockId block, Table<FaceId, Weigh
 }  // namespace
 
 template <int dim>
-std::vector<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
+SimplexList<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
   const auto& [kind, nodes] = mesh.cells[cell];
-  std::vector<Simplex<dim>> simplices;
+  SimplexList<Simplex<dim>> simplices;
   for (const CornerList& corners : mixed_simplices(kind)) {
     Simplex<dim> simplex;
     for (std::size_t i = 0; i <= dim; ++i) simplex[i] = nodes[corners[i]];
@@ -34,22 +35,24 @@ std::vector<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
 
 template <int dim>
 Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
-  Table<FaceId, WeightedFace<dim>> faces;
-  for (const Face<dim>& face : boundary_faces(mesh)) {
-    // In 2-D a cell has the edges of its triangles.
-    const bool as_it_is = dim == 2 || mesh.blocks[face.block].cells.size() == 0;
-    if (as_it_is) faces.push_back({face, 1});
-  }
-  if constexpr (dim == 3) {
-    for (const BlockId block : mesh.blocks.ids()) {
-      if (mesh.blocks[block].cells.size() > 0) add_cell_block(mesh, block, faces);
+  Table<FaceId, Face<dim>> of_elements;
+  Table<FaceId, WeightedFace<dim>> of_cells;
+  for (const BlockId block : mesh.blocks.ids()) {
+    if (dim == 2 || mesh.blocks[block].cells.size() == 0) {  // in 2-D a cell has the edges of its triangles
+      add_boundary_faces(mesh, block, of_elements);
+    } else if constexpr (dim == 3) {
+      add_cell_block(mesh, block, of_cells);
     }
   }
+  Table<FaceId, WeightedFace<dim>> faces;
+  faces.reserve(of_elements.size() + of_cells.size());
+  for (const Face<dim>& face : of_elements) faces.push_back({face, 1});
+  for (const WeightedFace<dim>& face : of_cells) faces.push_back(face);
   return faces;
 }
 
 #define SCREE_INSTANTIATE(dim)                                                        \
-  template std::vector<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \
+  template SimplexList<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \
   template Table<FaceId, WeightedFace<dim>> weighted_faces<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -2,8 +2,6 @@
 // cell's overlapping splits with half the weight each.
 #pragma once
 
-#include <vector>
-
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::mesh {
@@ -13,7 +11,7 @@ using Simplex = std::array<NodeId, dim + 1>;
 
 // The simplices of both splits of a cell, positively oriented, those of the first split first.
 template <int dim>
-std::vector<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell);
+SimplexList<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell);
 
 // Calls `visit(nodes, weight)` with every simplex that makes up a block for conduction, storage and sources: its elements with
 // weight 1, or both splits of its cells with weight 1/2.

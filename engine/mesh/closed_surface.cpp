@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <gmsh.h>
 #include <Eigen/Geometry>
 
 #include "engine/mesh/disjoint_sets.h"
@@ -112,12 +111,12 @@ SimplexMesh<3> fill(const BodySpec& body, const ClosedSurface& shell) {
   }
   RawMesh raw;
   with_gmsh([&] {
-    gmsh::model::add(body.name);
-    const int face = gmsh::model::addDiscreteEntity(2);
-    gmsh::model::mesh::addNodes(2, face, tags, coordinates);
-    gmsh::model::mesh::addElementsByType(face, 2, {}, corners);
-    gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop({face})});
-    gmsh::model::geo::synchronize();
+    gmsh::add_model(body.name);
+    const int face = gmsh::add_discrete_surface();
+    gmsh::add_nodes(face, tags, coordinates);
+    gmsh::add_triangles(face, corners);
+    gmsh::add_volume(gmsh::add_surface_loop({face}));
+    gmsh::synchronize_geo();
     generate(3, body.mesh_size);
     raw = model_mesh();
   });

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include <gmsh.h>
-
 namespace scree::mesh {
 
 namespace {
@@ -15,21 +13,20 @@ constexpr int line = 1, triangle = 2, quadrangle = 3, tetrahedron = 4, hexahedro
 class Session {
  public:
   Session() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-    gmsh::option::setNumber("Mesh.RandomSeed", 1);
+    gmsh::initialize();
+    gmsh::set_number("General.Terminal", 0);
+    gmsh::set_number("General.NumThreads", 1);
+    gmsh::set_number("Mesh.RandomSeed", 1);
   }
-  ~Session() { gmsh::finalize(); }
+  ~Session() {
+    try {
+      gmsh::finalize();
+    } catch (const GmshFailure&) {  // of a session that is over
+    }
+  }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 };
-
-std::string last_error(const std::string& thrown) {
-  std::string reason;
-  gmsh::logger::getLastError(reason);
-  return reason.empty() ? thrown : reason;
-}
 
 template <int corners>
 std::vector<RawCell<corners>> cells(const std::vector<std::size_t>& numbers, const std::vector<std::size_t>& nodes,
@@ -51,24 +48,32 @@ void add_large_cells(CellKind kind, const std::vector<std::size_t>& numbers, con
   }
 }
 
-std::string gmsh_name(int type) {
-  std::string name;
-  int dimension = 0, order = 0, nodes = 0, primary = 0;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, primary);
-  return name;
+void add_elements(const gmsh::Elements& elements, const std::unordered_map<std::size_t, std::size_t>& index, RawMesh& mesh) {
+  const auto& [type, tags, nodes] = elements;
+  if (type == tetrahedron) {
+    mesh.tetrahedra = cells<4>(tags, nodes, index);
+  } else if (type == triangle) {
+    mesh.triangles = cells<3>(tags, nodes, index);
+  } else if (type == line || type == point) {
+    for (const std::size_t node : nodes) mesh.marked.push_back(index.at(node));
+  } else if (type == quadrangle) {
+    add_large_cells(CellKind::quadrilateral, tags, nodes, index, mesh);
+  } else if (type == prism) {
+    add_large_cells(CellKind::wedge, tags, nodes, index, mesh);
+  } else if (type == hexahedron) {
+    add_large_cells(CellKind::hexahedron, tags, nodes, index, mesh);
+  } else {
+    mesh.unusable[gmsh::element_name(type)] += tags.size();
+  }
 }
 
 // The faces of one of Gmsh's entities.
 void add_faces(int dimension, int entity, const std::unordered_map<std::size_t, std::size_t>& index, RawSurface& surface) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> numbers, nodes;
-  gmsh::model::mesh::getElements(types, numbers, nodes, dimension, entity);
-  for (std::size_t t = 0; t < types.size(); ++t) {
-    const std::size_t corners = nodes[t].size() / std::max<std::size_t>(1, numbers[t].size());
-    for (std::size_t i = 0; i < nodes[t].size(); ++i) {
+  for (const gmsh::Elements& elements : gmsh::elements(dimension, entity)) {
+    const std::size_t corners = elements.nodes.size() / std::max<std::size_t>(1, elements.tags.size());
+    for (std::size_t i = 0; i < elements.nodes.size(); ++i) {
       if (i % corners == 0) surface.faces.emplace_back();
-      surface.faces.back().push_back(index.at(nodes[t][i]));
+      surface.faces.back().push_back(index.at(elements.nodes[i]));
     }
   }
 }
@@ -76,17 +81,13 @@ void add_faces(int dimension, int entity, const std::unordered_map<std::size_t, 
 // The physical groups of curves and faces; one without a name is called by its number.
 std::vector<RawSurface> physical_groups(const std::unordered_map<std::size_t, std::size_t>& index) {
   std::vector<RawSurface> surfaces;
-  gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups);
-  for (const auto& [dimension, tag] : groups) {
-    if (dimension != 1 && dimension != 2) continue;
+  for (const gmsh::PhysicalGroup& group : gmsh::physical_groups()) {
+    if (group.dimension != 1 && group.dimension != 2) continue;
     RawSurface surface;
-    surface.dimension = dimension;
-    gmsh::model::getPhysicalName(dimension, tag, surface.name);
-    if (surface.name.empty()) surface.name = std::to_string(tag);
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-    for (const int entity : entities) add_faces(dimension, entity, index, surface);
+    surface.dimension = group.dimension;
+    surface.name = gmsh::physical_name(group);
+    if (surface.name.empty()) surface.name = std::to_string(group.tag);
+    for (const int entity : gmsh::entities_of(group)) add_faces(group.dimension, entity, index, surface);
     surfaces.push_back(std::move(surface));
   }
   return surfaces;
@@ -96,67 +97,38 @@ std::vector<RawSurface> physical_groups(const std::unordered_map<std::size_t, st
 
 void with_gmsh(const std::function<void()>& work) {
   const Session session;
-  // Gmsh 4.8 throws strings, and now and then a number.
-  try {
-    work();
-  } catch (const std::string& thrown) {
-    throw GmshFailure{last_error(thrown)};
-  } catch (const char* thrown) {
-    throw GmshFailure{last_error(thrown)};
-  } catch (int) {
-    throw GmshFailure{last_error("no reason given")};
-  }
+  work();
 }
 
 void generate(int dimension, double mesh_size, FaceMesher faces) {
-  const auto set = [](const char* option, double value) { gmsh::option::setNumber(option, value); };
-  set("Mesh.MeshSizeMin", mesh_size);
-  set("Mesh.MeshSizeMax", mesh_size);
-  set("Mesh.MeshSizeFromPoints", 0);
-  set("Mesh.MeshSizeExtendFromBoundary", 0);
-  set("Mesh.Algorithm", static_cast<double>(faces));
+  gmsh::set_number("Mesh.MeshSizeMin", mesh_size);
+  gmsh::set_number("Mesh.MeshSizeMax", mesh_size);
+  gmsh::set_number("Mesh.MeshSizeFromPoints", 0);
+  gmsh::set_number("Mesh.MeshSizeExtendFromBoundary", 0);
+  gmsh::set_number("Mesh.Algorithm", static_cast<double>(faces));
   // Delaunay. HXT (10) makes slightly better tetrahedra, but not the same ones twice.
-  set("Mesh.Algorithm3D", 1);
+  gmsh::set_number("Mesh.Algorithm3D", 1);
   // The built-in optimiser works on tetrahedra below this quality; the figures behind 0.5 are in README.md.
-  set("Mesh.Optimize", 1);
-  set("Mesh.OptimizeThreshold", 0.5);
-  gmsh::model::mesh::generate(dimension);
+  gmsh::set_number("Mesh.Optimize", 1);
+  gmsh::set_number("Mesh.OptimizeThreshold", 0.5);
+  gmsh::generate(dimension);
 }
 
 void only_quadrilaterals() {
-  gmsh::option::setNumber("Mesh.RecombineAll", 1);
-  gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 3);  // blossom, all quadrilaterals
+  gmsh::set_number("Mesh.RecombineAll", 1);
+  gmsh::set_number("Mesh.RecombinationAlgorithm", 3);  // blossom, all quadrilaterals
 }
 
 RawMesh model_mesh() {
   RawMesh mesh;
-  std::vector<double> coordinates, parametric;
-  gmsh::model::mesh::getNodes(mesh.point_numbers, coordinates, parametric);
+  gmsh::Nodes nodes = gmsh::nodes();
+  mesh.point_numbers = std::move(nodes.tags);
   std::unordered_map<std::size_t, std::size_t> index;
   for (std::size_t i = 0; i < mesh.point_numbers.size(); ++i) {
     index[mesh.point_numbers[i]] = i;
-    mesh.points.emplace_back(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    mesh.points.emplace_back(nodes.coordinates[3 * i], nodes.coordinates[3 * i + 1], nodes.coordinates[3 * i + 2]);
   }
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> numbers, nodes;
-  gmsh::model::mesh::getElements(types, numbers, nodes);
-  for (std::size_t t = 0; t < types.size(); ++t) {
-    if (types[t] == tetrahedron) {
-      mesh.tetrahedra = cells<4>(numbers[t], nodes[t], index);
-    } else if (types[t] == triangle) {
-      mesh.triangles = cells<3>(numbers[t], nodes[t], index);
-    } else if (types[t] == line || types[t] == point) {
-      for (const std::size_t node : nodes[t]) mesh.marked.push_back(index.at(node));
-    } else if (types[t] == quadrangle) {
-      add_large_cells(CellKind::quadrilateral, numbers[t], nodes[t], index, mesh);
-    } else if (types[t] == prism) {
-      add_large_cells(CellKind::wedge, numbers[t], nodes[t], index, mesh);
-    } else if (types[t] == hexahedron) {
-      add_large_cells(CellKind::hexahedron, numbers[t], nodes[t], index, mesh);
-    } else {
-      mesh.unusable[gmsh_name(types[t])] += numbers[t].size();
-    }
-  }
+  for (const gmsh::Elements& elements : gmsh::elements()) add_elements(elements, index, mesh);
   mesh.surfaces = physical_groups(index);
   return mesh;
 }

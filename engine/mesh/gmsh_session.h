@@ -2,18 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
+#include "engine/mesh/gmsh_library.h"
 #include "engine/mesh/raw_mesh.h"
 
 namespace scree::mesh {
 
-// What Gmsh said when it failed.
-struct GmshFailure {
-  std::string reason;
-};
-
-// Runs `work` in a fresh Gmsh; whatever Gmsh throws comes out as a GmshFailure.
+// Runs `work` in a fresh Gmsh.
 void with_gmsh(const std::function<void()>& work);
 
 // How Gmsh triangulates faces.

@@ -161,7 +161,9 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
     const auto before = static_cast<std::size_t>(same - bodies.begin());
     meshed.push_back(before < meshed.size() ? meshed[before] : mesh_parts<dim>(body, readers));
     const Parts<dim>& whole = meshed.back();
-    const Parts<dim> pieces = body.blocks == BlockRule::per_element ? broken(whole) : whole;
+    const bool breaks = body.blocks == BlockRule::per_element;
+    const Parts<dim> singles = breaks ? broken(whole) : Parts<dim>{};
+    const Parts<dim>& pieces = breaks ? singles : whole;
     const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity});
     const std::size_t first_surface = mesh.surface_names.size();
     for (const std::string& name : whole.surfaces) mesh.surface_names.push_back({id, name});

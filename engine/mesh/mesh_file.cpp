@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gmsh.h>
 
 #include "engine/mesh/closed_surface.h"
 #include "engine/mesh/gmsh_session.h"

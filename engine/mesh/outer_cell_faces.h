@@ -5,44 +5,35 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "engine/mesh/cell_kind.h"
+#include "engine/mesh/lone_faces.h"
 
 namespace scree::mesh {
 
 // The triangles that make up a face, by its corners; of a quadrilateral those of both diagonals.
 std::span<const std::array<std::size_t, 3>> face_triangles(std::size_t corners);
 
-// Calls `visit` with the place of the cell and the corners of the face. `cells` have a kind and nodes.
-template <class Cells, class Visit>
-void for_each_outer_face(const Cells& cells, const Visit& visit) {
-  using Node = std::decay_t<decltype(cells[0].nodes[0])>;
-  struct Use {
-    std::array<Node, 4> key;  // ascending; of a triangle the last one twice
-    std::size_t cell;
-    std::size_t face;
-
-    auto operator<=>(const Use&) const = default;
-  };
-  std::vector<Use> uses;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    for (std::size_t f = 0; f < cell_faces(cells[c].kind).size(); ++f) {
-      const CornerList corners = cell_faces(cells[c].kind)[f];
-      Use use{{}, c, f};
-      std::transform(corners.begin(), corners.end(), use.key.begin(),
-                     [&](std::size_t corner) { return cells[c].nodes[corner]; });
-      if (corners.size() < 4) use.key[3] = *std::max_element(use.key.begin(), use.key.begin() + 3);
-      std::sort(use.key.begin(), use.key.end());
-      uses.push_back(use);
+// Calls `visit` with the place of the cell and the corners of the face, in this order. `cells` have a kind and nodes; `index`
+// numbers their nodes from 0 to `nodes`.
+template <class Cells, class Index, class Visit>
+void for_each_outer_face(const Cells& cells, std::size_t nodes, const Index& index, const Visit& visit) {
+  const auto for_each_face = [&](const auto& take) {
+    for (const auto& cell : cells) {
+      for (const CornerList corners : cell_faces(cell.kind)) {
+        std::array<std::uint32_t, 4> face;  // of a triangle the greatest node twice
+        std::transform(corners.begin(), corners.end(), face.begin(),
+                       [&](std::size_t corner) { return static_cast<std::uint32_t>(index(cell.nodes[corner])); });
+        if (corners.size() < 4) face[3] = *std::max_element(face.begin(), face.begin() + 3);
+        std::sort(face.begin(), face.end());
+        take(face);
+      }
     }
-  }
-  std::sort(uses.begin(), uses.end());
-  for (std::size_t i = 0; i < uses.size();) {
-    std::size_t next = i + 1;
-    while (next < uses.size() && uses[next].key == uses[i].key) ++next;
-    if (next == i + 1) visit(uses[i].cell, cell_faces(cells[uses[i].cell].kind)[uses[i].face]);
-    i = next;
+  };
+  std::size_t cell = 0, before = 0;  // faces of the cells before
+  for (const std::uint32_t place : lone_faces<4>(nodes, for_each_face)) {
+    for (; place - before >= cell_faces(cells[cell].kind).size(); ++cell) before += cell_faces(cells[cell].kind).size();
+    visit(cell, cell_faces(cells[cell].kind)[place - before]);
   }
 }
 

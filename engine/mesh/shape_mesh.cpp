@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <gmsh.h>
 
 #include "engine/mesh/cell_shapes.h"
 #include "engine/mesh/gmsh_session.h"
@@ -33,28 +32,27 @@ template <int dim>
 void draw(const Box& box) {
   const Eigen::Vector3d low = -box.size / 2;
   if constexpr (dim == 2) {
-    gmsh::model::occ::addRectangle(low.x(), low.y(), 0, box.size.x(), box.size.y());
+    gmsh::add_rectangle(low.x(), low.y(), box.size.x(), box.size.y());
   } else {
-    gmsh::model::occ::addBox(low.x(), low.y(), low.z(), box.size.x(), box.size.y(), box.size.z());
+    gmsh::add_box(low.x(), low.y(), low.z(), box.size.x(), box.size.y(), box.size.z());
   }
-  gmsh::model::occ::synchronize();
+  gmsh::synchronize_occ();
 }
 
 // Eight octants rather than OpenCASCADE's sphere, whose seam and poles leave a coarse mesh almost flat.
 void draw_octants(double radius) {
-  namespace geo = gmsh::model::geo;
-  const int centre = geo::addPoint(0, 0, 0);
+  const int centre = gmsh::add_point(0, 0, 0);
   int tip[3][2];
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       const Eigen::Vector3d p = (side == 0 ? radius : -radius) * Eigen::Vector3d::Unit(axis);
-      tip[axis][side] = geo::addPoint(p.x(), p.y(), p.z());
+      tip[axis][side] = gmsh::add_point(p.x(), p.y(), p.z());
     }
   }
   std::map<std::pair<int, int>, int> arcs;
   const auto arc = [&](int from, int to) {
     if (!arcs.contains({from, to})) {
-      const int tag = geo::addCircleArc(from, centre, to);
+      const int tag = gmsh::add_circle_arc(from, centre, to);
       arcs[{from, to}] = tag;
       arcs[{to, from}] = -tag;
     }
@@ -64,20 +62,20 @@ void draw_octants(double radius) {
   for (int octant = 0; octant < 8; ++octant) {
     const int x = tip[0][octant & 1], y = tip[1][(octant >> 1) & 1], z = tip[2][octant >> 2];
     const bool mirrored = (((octant & 1) + ((octant >> 1) & 1) + (octant >> 2)) % 2) == 1;
-    const int loop =
-        mirrored ? geo::addCurveLoop({arc(x, z), arc(z, y), arc(y, x)}) : geo::addCurveLoop({arc(x, y), arc(y, z), arc(z, x)});
-    faces.push_back(geo::addSurfaceFilling({loop}, octant + 1, centre));
+    const int loop = mirrored ? gmsh::add_curve_loop({arc(x, z), arc(z, y), arc(y, x)})
+                              : gmsh::add_curve_loop({arc(x, y), arc(y, z), arc(z, x)});
+    faces.push_back(gmsh::add_surface_filling(loop, octant + 1, centre));
   }
-  geo::addVolume({geo::addSurfaceLoop(faces)});
-  geo::synchronize();
+  gmsh::add_volume(gmsh::add_surface_loop(faces));
+  gmsh::synchronize_geo();
 }
 
 template <int dim>
 void draw(const Sphere& sphere) {
   const double radius = sphere.diameter / 2;
   if constexpr (dim == 2) {
-    gmsh::model::occ::addDisk(0, 0, 0, radius, radius);
-    gmsh::model::occ::synchronize();
+    gmsh::add_disc(radius);
+    gmsh::synchronize_occ();
   } else {
     draw_octants(radius);
   }
@@ -85,8 +83,8 @@ void draw(const Sphere& sphere) {
 
 template <int dim>
 void draw(const Cylinder& cylinder) {
-  gmsh::model::occ::addCylinder(0, 0, -cylinder.height / 2, 0, 0, cylinder.height, cylinder.diameter / 2);
-  gmsh::model::occ::synchronize();
+  gmsh::add_cylinder(-cylinder.height / 2, cylinder.height, cylinder.diameter / 2);
+  gmsh::synchronize_occ();
 }
 
 void to_surface(const Box& box, Eigen::Vector3d& p) {
@@ -146,7 +144,7 @@ SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   for (const FaceMesher faces : {FaceMesher::frontal_delaunay, FaceMesher::delaunay, FaceMesher::mesh_adapt}) {
     RawMesh raw;
     with_gmsh([&] {
-      gmsh::model::add(body.name);
+      gmsh::add_model(body.name);
       draw<dim>(shape);
       if (body.cells) only_quadrilaterals();
       generate(dim, size, faces);

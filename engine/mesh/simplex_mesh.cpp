@@ -16,7 +16,8 @@ constexpr auto not_there = static_cast<std::size_t>(-1);
 
 std::vector<OuterFace<3>> outer_faces_of_cells(const SimplexMesh<3>& mesh) {
   std::vector<OuterFace<3>> outer;
-  for_each_outer_face(mesh.cells, [&](std::size_t c, CornerList corners) {
+  const auto index = [](std::size_t node) { return node; };
+  for_each_outer_face(mesh.cells, mesh.nodes.size(), index, [&](std::size_t c, CornerList corners) {
     for (const auto& triangle : face_triangles(corners.size())) {
       OuterFace<3> face;
       for (std::size_t i = 0; i < 3; ++i) face[i] = mesh.cells[c].nodes[corners[triangle[i]]];
@@ -97,25 +98,29 @@ std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh) {
   if constexpr (dim == 3) {
     if (!mesh.cells.empty()) return outer_faces_of_cells(mesh);
   }
-  std::vector<OuterFace<dim>> faces;
-  for (const auto& element : mesh.elements) {
-    for (std::size_t out = 0; out <= dim; ++out) {
-      OuterFace<dim> face;
-      for (std::size_t i = 0, k = 0; i <= dim; ++i) {
-        if (i != out) face[k++] = element[i];
-      }
-      std::sort(face.begin(), face.end());
-      faces.push_back(face);
+  const auto face_of = [&](std::size_t element, std::size_t out) {
+    OuterFace<dim> face;
+    for (std::size_t i = 0, k = 0; i <= dim; ++i) {
+      if (i != out) face[k++] = mesh.elements[element][i];
     }
-  }
-  std::sort(faces.begin(), faces.end());
+    std::sort(face.begin(), face.end());
+    return face;
+  };
+  const auto for_each_face = [&](const auto& visit) {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      for (std::size_t out = 0; out <= dim; ++out) {
+        std::array<std::uint32_t, dim> face;
+        const OuterFace<dim> nodes = face_of(e, out);
+        std::transform(nodes.begin(), nodes.end(), face.begin(), [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+        visit(face);
+      }
+    }
+  };
   std::vector<OuterFace<dim>> outer;
-  for (std::size_t i = 0; i < faces.size();) {
-    std::size_t next = i + 1;
-    while (next < faces.size() && faces[next] == faces[i]) ++next;
-    if (next == i + 1) outer.push_back(faces[i]);
-    i = next;
+  for (const std::uint32_t place : lone_faces<dim>(mesh.nodes.size(), for_each_face)) {
+    outer.push_back(face_of(place / (dim + 1), place % (dim + 1)));
   }
+  std::sort(outer.begin(), outer.end());
   return outer;
 }
 
@@ -132,11 +137,13 @@ SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& cho
     place[i] = mesh.nodes.size();
     mesh.nodes.push_back(raw.points[i].template head<dim>());
   }
+  mesh.elements.reserve(chosen.size());
   for (const std::size_t e : chosen) {
     auto nodes = cells[e].nodes;
     for (std::size_t& node : nodes) node = place[node];
     mesh.elements.push_back(nodes);
   }
+  mesh.cells.reserve(raw.cells.size());
   for (RawLargeCell cell : raw.cells) {
     if (place[cell.nodes[0]] == not_there) continue;
     for (std::size_t i = 0; i < corner_count(cell.kind); ++i) cell.nodes[i] = place[cell.nodes[i]];

@@ -24,38 +24,45 @@ std::vector<RawCell<dim + 1>>& simplices_of(RawMesh& raw) {
   }
 }
 
-// The volume over the cube (2-D: the area over the square) of the longest edge.
-template <int dim>
-double fullness(const RawMesh& raw, const std::array<std::size_t, dim + 1>& nodes) {
+template <int dim, class Nodes>
+std::array<Point<dim>, dim + 1> corners_of(const RawMesh& raw, const Nodes& nodes) {
   std::array<Point<dim>, dim + 1> corners;
   std::transform(nodes.begin(), nodes.end(), corners.begin(),
                  [&](std::size_t n) { return raw.points[n].template head<dim>(); });
-  double longest = 0;
-  for (const Point<dim>& a : corners) {
-    for (const Point<dim>& b : corners) longest = std::max(longest, (a - b).norm());
-  }
-  return longest > 0 ? signed_volume<dim>(corners) / std::pow(longest, dim) : 0;
+  return corners;
 }
 
+// Whether the volume is more than `flat` of the cube (2-D: the square) of the longest edge.
 template <int dim>
-double least_fullness(const RawMesh& raw, const RawLargeCell& cell) {
-  double least = 1;
+bool is_full(const std::array<Point<dim>, dim + 1>& corners) {
+  double longest = 0;  // squared
+  for (std::size_t i = 0; i <= dim; ++i) {
+    for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, (corners[i] - corners[j]).squaredNorm());
+  }
+  return signed_volume<dim>(corners) > flat * (dim == 2 ? longest : longest * std::sqrt(longest));
+}
+
+// Whether all simplices of all its splits are.
+template <int dim>
+bool is_full(const RawMesh& raw, const RawLargeCell& cell) {
   for (const CornerList& corners : mixed_simplices(cell.kind)) {
     std::array<std::size_t, dim + 1> nodes;
     std::transform(corners.begin(), corners.end(), nodes.begin(), [&](std::size_t corner) { return cell.nodes[corner]; });
-    least = std::min(least, fullness<dim>(raw, nodes));
+    if (!is_full<dim>(corners_of<dim>(raw, nodes))) return false;
   }
-  for (const auto& nodes : split_by_smallest<dim>(cell.kind, cell.nodes)) least = std::min(least, fullness<dim>(raw, nodes));
-  return least;
+  for (const auto& nodes : split_by_smallest<dim>(cell.kind, cell.nodes)) {
+    if (!is_full<dim>(corners_of<dim>(raw, nodes))) return false;
+  }
+  return true;
 }
 
 template <int dim>
 void orient(const BodySpec& body, const RawMesh& raw, RawLargeCell& cell) {
-  if (least_fullness<dim>(raw, cell) > flat) return;
+  if (is_full<dim>(raw, cell)) return;
   if (cell.kind == CellKind::wedge) {
     std::swap(cell.nodes[1], cell.nodes[2]);
     std::swap(cell.nodes[4], cell.nodes[5]);
-    if (least_fullness<dim>(raw, cell) > flat) return;
+    if (is_full<dim>(raw, cell)) return;
   }
   throw body_error(body, std::holds_alternative<MeshFile>(body.shape) ? "mesh.file" : "",
                    std::holds_alternative<MeshFile>(body.shape) ? std::get<MeshFile>(body.shape).path.string() : "",
@@ -96,6 +103,7 @@ void split_cells(const BodySpec& body, RawMesh& raw) {
                      fmt::format("it holds {} beside {}", kind_name(raw.cells[0].kind), dim == 2 ? "triangles" : "tetrahedra"),
                      "Mesh it with one family of elements, or make two bodies of it");
   }
+  simplices_of<dim>(raw).reserve(raw.cells.size() * split_count(raw.cells[0].kind));
   for (RawLargeCell& cell : raw.cells) {
     orient<dim>(body, raw, cell);
     for (const auto& nodes : split_by_smallest<dim>(cell.kind, cell.nodes))

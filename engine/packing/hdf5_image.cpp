@@ -4,7 +4,8 @@ namespace scree::packing {
 
 namespace {
 
-constexpr std::size_t growth = 1 << 20;  // bytes by which an image grows
+// Bytes by which an image grows; each time it may be copied.
+constexpr std::size_t growth = 1 << 26;
 
 H5::H5File in_memory() {
   H5::Exception::dontPrint();

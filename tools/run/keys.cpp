@@ -28,10 +28,10 @@ void add(Hasher& hash, const std::optional<double>& value) {
 template <int dim>
 void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
   hash.add(dim);
-  for (const Point<dim>& node : mesh.nodes) hash.add_bytes(node.data(), sizeof(double) * dim);
-  for (const auto& element : mesh.elements) {
-    for (const NodeId node : element) hash.add(node.value());
-  }
+  const auto add_all = [&hash](const auto& table) { hash.add_bytes(table.raw().data(), table.size() * sizeof table.raw()[0]); };
+  static_assert(sizeof(Point<dim>) == dim * sizeof(double) && sizeof mesh.elements.raw()[0] == (dim + 1) * sizeof(int));
+  add_all(mesh.nodes);
+  add_all(mesh.elements);
   for (const mesh::Cell& cell : mesh.cells) {
     hash.add(static_cast<int>(cell.kind));
     for (const NodeId node : cell.nodes) hash.add(node.value());
