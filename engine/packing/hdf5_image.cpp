@@ -4,10 +4,7 @@ namespace scree::packing {
 
 namespace {
 
-// Bytes by which an image grows; each time it may be copied.
-constexpr std::size_t growth = 1 << 26;
-
-H5::H5File in_memory() {
+H5::H5File in_memory(std::size_t growth) {
   H5::Exception::dontPrint();
   H5::FileAccPropList access;
   access.setCore(growth, false);
@@ -39,7 +36,7 @@ std::vector<T> numbers(const H5::H5File& file, const std::string& name, const H5
 
 }  // namespace
 
-Hdf5Image::Hdf5Image() : file_(in_memory()) {}
+Hdf5Image::Hdf5Image(std::size_t expected) : file_(in_memory(expected + expected / 16 + (1 << 16))) {}
 
 void Hdf5Image::put_attribute(const std::string& name, const std::string& text) {
   const H5::StrType type(H5::PredType::C_S1, text.size() + 1);

@@ -12,7 +12,8 @@ namespace scree::packing {
 
 class Hdf5Image {
  public:
-  Hdf5Image();
+  // `expected`: about how large it will be; it grows in steps of that [bytes].
+  explicit Hdf5Image(std::size_t expected);
 
   void put_attribute(const std::string& name, const std::string& text);
   void put_attribute(const std::string& name, std::int64_t number);

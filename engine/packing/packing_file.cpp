@@ -214,7 +214,7 @@ void check_kind(const H5::H5File& in, const std::filesystem::path& file, int dim
 template <int dim>
 void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   const Lists lists = pack(packing);
-  Hdf5Image image;
+  Hdf5Image image(sizeof(double) * (lists.nodes.size() + lists.elements.size() + lists.cells.size()));
   image.put_attribute("format", format_name);
   image.put_attribute("version", format_version);
   image.put_attribute("dimension", dim);

@@ -51,7 +51,7 @@ std::string to_csv(const Table& table) {
 }
 
 void write_hdf5(const Table& table, const std::filesystem::path& file) {
-  packing::Hdf5Image image;
+  packing::Hdf5Image image(sizeof(double) * table.columns.size() * table.rows());
   std::vector<std::string> names;
   for (const Column& column : table.columns) {
     names.push_back(column.name);
