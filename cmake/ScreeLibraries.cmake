@@ -14,7 +14,7 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
-             FiltersSources IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+             FiltersSources IOCore IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 
 # scree_library(TARGET LIBRARY HEADER [SUFFIX]): for packages without a CMake or pkg-config file.
 function(scree_library target library header)

@@ -1,4 +1,4 @@
-#include "engine/output/series.h"
+#include "engine/output/frame.h"
 
 namespace scree::output {
 

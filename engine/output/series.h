@@ -4,46 +4,15 @@
 // run, the series is readable up to the last finished time.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "engine/mesh/block_mesh.h"
 #include "engine/output/series_index.h"
+#include "engine/output/vtu_text.h"
 
 namespace scree::output {
-
-enum class CellType : std::uint8_t { vertex, line, triangle, quadrilateral, tetrahedron, wedge, hexahedron };
-
-// Points and cells. 2-D data has z = 0.
-struct Grid {
-  std::vector<Eigen::Vector3d> points;     // [m]
-  std::vector<CellType> types;             // of each cell
-  std::vector<std::int32_t> connectivity;  // corners of cell 0, of cell 1, ...
-};
-
-// Values at the points or cells of a grid; the name is what the user sees. Units go into the name's documentation, SI.
-struct Array {
-  std::string name;
-  int components = 1;
-  std::variant<std::vector<double>, std::vector<std::int32_t>> values;
-};
-
-struct Frame {
-  double time = 0;  // [s]
-  std::vector<Array> points;
-  std::vector<Array> cells;
-};
-
-// Block by block: its cells, or its elements if it has none.
-template <int dim>
-Grid make_grid(const mesh::BlockMesh<dim>& mesh);
 
 class Series {
  public:
@@ -56,6 +25,12 @@ class Series {
   // The same values give the same bytes.
   void write(const Grid& grid, const Frame& frame);
 
+  // What the following frames share, beside their own arrays: encoded here, once and for all.
+  void share(const Grid& grid, const std::vector<Array>& cells);
+
+  // Appends a frame of what is shared.
+  void write(const Frame& frame);
+
   [[nodiscard]] std::size_t frames() const { return entries_.size(); }
 
  private:
@@ -63,6 +38,10 @@ class Series {
   std::filesystem::path index_;
   std::string name_;
   std::vector<SeriesEntry> entries_;
+  EncodedGrid shared_grid_;
+  std::string shared_cells_;
+
+  void append(double time, const std::string& vtu);
 };
 
 }  // namespace scree::output

@@ -39,14 +39,13 @@ output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>&
 }
 
 template <int dim>
-output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
-                         const std::vector<Point<dim>>& flux) {
+output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const std::vector<Point<dim>>& flux) {
   std::vector<double> components;
   components.reserve(3 * flux.size());
   for (const Point<dim>& q : flux) {
     for (int i = 0; i < 3; ++i) components.push_back(i < dim ? q[i] : 0.0);
   }
-  output::Frame frame{time, {}, identity};
+  output::Frame frame{time, {}, {}};
   frame.points.push_back({"temperature", 1, std::vector<double>(temperature.begin(), temperature.end())});
   frame.cells.push_back({"heat_flux", 3, std::move(components)});
   return frame;
@@ -85,26 +84,22 @@ output::Grid contact_grid(const contact::ContactSet<dim>& contacts) {
 }
 
 template <int dim>
-output::Frame contact_frame(double time, const contact::ContactSet<dim>& contacts, std::vector<double> flow) {
+std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts) {
   using Contact = contact::Contact<dim>;
   const auto& all = contacts.contacts;
-  output::Frame frame{time, {}, {}};
-  frame.cells.push_back({"heat_flow", 1, std::move(flow)});
-  frame.cells.push_back({"area", 1, collect(all, [](const Contact& c) { return c.area; })});
-  frame.cells.push_back({"gap", 1, collect(all, [](const Contact& c) { return c.gap; })});
-  frame.cells.push_back({"kind", 1, collect(all, [](const Contact& c) { return static_cast<std::int32_t>(c.kind); })});
-  frame.cells.push_back({"owner", 1, collect(all, [](const Contact& c) { return c.owner.value(); })});
-  frame.cells.push_back({"target", 1, collect(all, [](const Contact& c) { return c.target.value(); })});
-  return frame;
+  return {{"area", 1, collect(all, [](const Contact& c) { return c.area; })},
+          {"gap", 1, collect(all, [](const Contact& c) { return c.gap; })},
+          {"kind", 1, collect(all, [](const Contact& c) { return static_cast<std::int32_t>(c.kind); })},
+          {"owner", 1, collect(all, [](const Contact& c) { return c.owner.value(); })},
+          {"target", 1, collect(all, [](const Contact& c) { return c.target.value(); })}};
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                 \
   template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                       \
-  template output::Frame heat_frame<dim>(double, const std::vector<output::Array>&, const Eigen::VectorXd&,    \
-                                         const std::vector<Point<dim>>&);                                      \
+  template output::Frame heat_frame<dim>(double, const Eigen::VectorXd&, const std::vector<Point<dim>>&);      \
   template std::vector<double> largest_in_cells<dim>(const mesh::BlockMesh<dim>&, const std::vector<double>&); \
   template output::Grid contact_grid<dim>(const contact::ContactSet<dim>&);                                    \
-  template output::Frame contact_frame<dim>(double, const contact::ContactSet<dim>&, std::vector<double>);
+  template std::vector<output::Array> contact_arrays<dim>(const contact::ContactSet<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -18,8 +18,7 @@ output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>&
 
 // `temperature` [K] at the nodes and `heat_flux` [W/m2] in the cells.
 template <int dim>
-output::Frame heat_frame(double time, const std::vector<output::Array>& identity, const Eigen::VectorXd& temperature,
-                         const std::vector<Point<dim>>& flux);
+output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const std::vector<Point<dim>>& flux);
 
 // The largest value among the elements of each cell that a series shows.
 template <int dim>
@@ -29,8 +28,8 @@ std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std
 template <int dim>
 output::Grid contact_grid(const contact::ContactSet<dim>& contacts);
 
-// `heat_flow` [W] from owner to target, with `owner`, `target`, `kind` (0 point-face, 1 edge-edge), `area` [m2], `gap` [m].
+// `area` [m2], `gap` [m], `kind` (0 point-face, 1 edge-edge, 2 overlap), `owner` and `target` (blocks).
 template <int dim>
-output::Frame contact_frame(double time, const contact::ContactSet<dim>& contacts, std::vector<double> flow);
+std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts);
 
 }  // namespace scree::run

@@ -27,14 +27,12 @@ bool frame_due(const Scene& scene, double time) {
 template <int dim>
 HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile,
                                 std::optional<double> resumed_from)
-    : scene_(scene),
-      pile_(pile),
-      restart_(files.restart()),
-      grid_(output::make_grid(pile.mesh)),
-      contact_grid_(contact_grid(pile.contacts)),
-      identity_(identity_arrays(pile.mesh)),
-      series_(files.directory, "heat", resumed_from) {
-  if (!pile.contacts.contacts.empty()) contact_series_.emplace(files.directory, "contacts", resumed_from);
+    : scene_(scene), pile_(pile), restart_(files.restart()), series_(files.directory, "heat", resumed_from) {
+  series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh));
+  if (!pile.contacts.contacts.empty()) {
+    contact_series_.emplace(files.directory, "contacts", resumed_from);
+    contact_series_->share(contact_grid(pile.contacts), contact_arrays(pile.contacts));
+  }
   if (pile.probes.empty()) return;
   if (resumed_from) {
     table_.emplace(files.probes(), *resumed_from);
@@ -46,10 +44,6 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   finish();
-  if (threads_in_use() == 1) {
-    write(state);
-    return;
-  }
   pending_ = std::async(std::launch::async, [this, state] {
     use_threads(1);  // of this thread's own loops
     write(state);
@@ -72,16 +66,16 @@ void HeatRecorder<dim>::write(const thermal::HeatState& state) {
 template <int dim>
 void HeatRecorder<dim>::write_frame(const thermal::HeatState& state) {
   const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, state.temperature);
-  output::Frame frame = heat_frame<dim>(state.time, identity_, state.temperature, flux);
+  output::Frame frame = heat_frame<dim>(state.time, state.temperature, flux);
   if (model_ != nullptr) {
     const auto rate = thermal::temperature_rate(*model_, state.temperature, state.time);
     const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, state.temperature, rate);
     frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
   }
-  series_.write(grid_, frame);
+  series_.write(frame);
   if (!contact_series_) return;
   auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, scene_.heat->joint.form);
-  contact_series_->write(contact_grid_, contact_frame(state.time, pile_.contacts, std::move(flows)));
+  contact_series_->write(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
 }
 
 template class HeatRecorder<2>;

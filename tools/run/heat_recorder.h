@@ -23,8 +23,7 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error(const thermal::HeatModel& model) { model_ = &model; }
 
-  // With a thread to spare the files are written beside the computation; what goes wrong is then thrown by the next
-  // record() or by finish().
+  // The files are written beside the computation; what goes wrong is thrown by the next record() or by finish().
   void record(const thermal::HeatState& state);
 
   // Waits until everything is written.
@@ -38,9 +37,6 @@ class HeatRecorder {
   const Scene& scene_;
   const HeatedPile<dim>& pile_;
   std::filesystem::path restart_;
-  output::Grid grid_;
-  output::Grid contact_grid_;
-  std::vector<output::Array> identity_;
   output::Series series_;
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;

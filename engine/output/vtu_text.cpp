@@ -1,0 +1,136 @@
+#include "engine/output/vtu_text.h"
+
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+#include <vtkBase64Utilities.h>
+#include <vtkCellType.h>
+#include <vtkLZ4DataCompressor.h>
+#include <vtkNew.h>
+
+#include "engine/base/check.h"
+
+namespace scree::output {
+
+namespace {
+
+constexpr std::size_t bytes_in_block = 1 << 16;
+
+struct VtkCell {
+  std::uint8_t type;
+  std::int32_t corners;
+};
+
+VtkCell vtk_cell(CellType type) {
+  switch (type) {
+    case CellType::vertex:
+      return {VTK_VERTEX, 1};
+    case CellType::line:
+      return {VTK_LINE, 2};
+    case CellType::triangle:
+      return {VTK_TRIANGLE, 3};
+    case CellType::quadrilateral:
+      return {VTK_QUAD, 4};
+    case CellType::tetrahedron:
+      return {VTK_TETRA, 4};
+    case CellType::wedge:
+      return {VTK_WEDGE, 6};
+    case CellType::hexahedron:
+      return {VTK_HEXAHEDRON, 8};
+  }
+  std::abort();
+}
+
+void append_base64(const unsigned char* bytes, std::size_t count, std::string& text) {
+  const std::size_t before = text.size();
+  text.resize(before + (count + 2) / 3 * 4);
+  const auto written = vtkBase64Utilities::Encode(bytes, count, reinterpret_cast<unsigned char*>(text.data() + before));
+  text.resize(before + written);
+}
+
+// The values of one array, compressed and encoded.
+void append_values(const void* values, std::size_t bytes, std::string& text) {
+  vtkNew<vtkLZ4DataCompressor> compressor;
+  const std::size_t blocks = (bytes + bytes_in_block - 1) / bytes_in_block;
+  std::vector<std::uint64_t> header{blocks, bytes_in_block, bytes % bytes_in_block};
+  std::vector<unsigned char> compressed(blocks * compressor->GetMaximumCompressionSpace(bytes_in_block));
+  std::size_t end = 0;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const auto* from = static_cast<const unsigned char*>(values) + block * bytes_in_block;
+    const std::size_t size = std::min(bytes_in_block, bytes - block * bytes_in_block);
+    const std::size_t packed = compressor->Compress(from, size, compressed.data() + end, compressed.size() - end);
+    SCREE_ENSURE(packed > 0);
+    header.push_back(packed);
+    end += packed;
+  }
+  append_base64(reinterpret_cast<const unsigned char*>(header.data()), header.size() * sizeof header[0], text);
+  append_base64(compressed.data(), end, text);
+}
+
+template <class T>
+constexpr const char* type_name = "UInt8";
+template <>
+constexpr const char* type_name<double> = "Float64";
+template <>
+constexpr const char* type_name<std::int32_t> = "Int32";
+
+template <class T>
+void append_array(const std::string& name, int components, const T* values, std::size_t count, std::string& text) {
+  text +=
+      fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">)", type_name<T>, name, components);
+  append_values(values, count * sizeof(T), text);
+  text += "</DataArray>\n";
+}
+
+}  // namespace
+
+std::string encoded(const std::vector<Array>& arrays) {
+  std::string text;
+  for (const Array& array : arrays) {
+    std::visit([&](const auto& values) { append_array(array.name, array.components, values.data(), values.size(), text); },
+               array.values);
+  }
+  return text;
+}
+
+EncodedGrid encoded(const Grid& grid) {
+  std::vector<std::int32_t> ends;
+  std::vector<std::uint8_t> types;
+  std::int32_t end = 0;
+  for (const CellType type : grid.types) {
+    const VtkCell cell = vtk_cell(type);
+    types.push_back(cell.type);
+    ends.push_back(end += cell.corners);
+  }
+  SCREE_EXPECT(static_cast<std::size_t>(end) == grid.connectivity.size());
+  EncodedGrid made{grid.points.size(), grid.types.size(), "<Points>\n"};
+  const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
+  append_array("Points", 3, coordinates, 3 * grid.points.size(), made.text);
+  made.text += "</Points>\n<Cells>\n";
+  append_array("connectivity", 1, grid.connectivity.data(), grid.connectivity.size(), made.text);
+  append_array("offsets", 1, ends.data(), ends.size(), made.text);
+  append_array("types", 1, types.data(), types.size(), made.text);
+  made.text += "</Cells>\n";
+  return made;
+}
+
+std::string vtu_text(const EncodedGrid& grid, const std::string& point_arrays, const std::string& cell_arrays, double time) {
+  std::string text;
+  text.reserve(1024 + grid.text.size() + point_arrays.size() + cell_arrays.size());
+  text +=
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"vtkLZ4DataCompressor\">\n<UnstructuredGrid>\n";
+  // ParaView shows this as the time of a .vtu opened on its own.
+  text += R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="binary">)";
+  append_values(&time, sizeof time, text);
+  text += "</DataArray></FieldData>\n";
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points, grid.cells);
+  text += "<PointData>\n" + point_arrays + "</PointData>\n<CellData>\n" + cell_arrays + "</CellData>\n";
+  text += grid.text;
+  text += "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return text;
+}
+
+}  // namespace scree::output

@@ -1,0 +1,77 @@
+// The fall of a scene's blocks by Bullet as it comes and by Scree, one after the other, with what each took and how deep its
+// blocks are in each other at the end.
+//
+//   scree_settle_bench scenes/pile_undamped.yaml SECONDS
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/base/threads.h"
+#include "engine/mesh/make_blocks.h"
+#include "engine/output/read_vtu.h"
+#include "engine/packing/penetration.h"
+#include "engine/rigid/settle.h"
+#include "tools/bench/plain_bullet.h"
+#include "tools/scene/read_scene.h"
+
+namespace scree::bench {
+namespace {
+
+void measure(const std::string& name, const std::function<packing::Packing<3>()>& fall) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t processor = std::clock();
+  const packing::Packing<3> packing = fall();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double spent = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+  const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
+  const double edge = mesh::mean_edge(packing.mesh);
+  const packing::Penetration depth = packing::measure_penetration(placed, 0.01 * edge);
+  double top = 0;
+  for (const Point<3>& node : placed.nodes) top = std::max(top, node.z());
+  fmt::print("{},{:.2f},{:.2f},{:.4f},{:.5f},{},{:.3f}\n", name, wall, spent, 100 * depth.max / edge, 100 * depth.mean / edge,
+             depth.touching, top);
+  std::fflush(stdout);
+}
+
+// Without an end to it when the blocks are at rest.
+packing::Packing<3> scree_fall(const Scene& scene, const mesh::BlockMesh<3>& blocks, double seconds, int threads) {
+  use_threads(threads);
+  rigid::SettleOptions options = scene.settle->options;
+  options.limit = seconds;
+  options.rest_speed = 1e-12;
+  options.frame_interval = seconds;
+  return rigid::settle(blocks, scene.materials, options);
+}
+
+int compare(const std::string& file, double seconds) {
+  const Scene scene = read_scene(file);
+  const auto blocks = mesh::make_blocks<3>(scene.bodies, output::mesh_readers());
+  const Material& material = *scene.materials.begin();
+  fmt::print("program,wall_s,processor_s,largest_overlap_percent,mean_overlap_percent,touching_pairs,top_m\n");
+  measure("Scree; two threads", [&] { return scree_fall(scene, blocks, seconds, 2); });
+  measure("Scree; one thread", [&] { return scree_fall(scene, blocks, seconds, 1); });
+  measure("Bullet with its own hulls",
+          [&] { return plain_fall(blocks, *material.density, material.friction, seconds).packing; });
+  return 0;
+}
+
+}  // namespace
+}  // namespace scree::bench
+
+int main(int count, char** words) {
+  if (count != 3) {
+    fmt::print(stderr, "usage: scree_settle_bench SCENE SECONDS\n");
+    return 2;
+  }
+  try {
+    return scree::bench::compare(words[1], std::atof(words[2]));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
