@@ -11,13 +11,13 @@
 
 namespace scree::output {
 
-// One <DataArray> each.
+// One `DataArray` each.
 std::string encoded(const std::vector<Array>& arrays);
 
 struct EncodedGrid {
   std::size_t points = 0;
   std::size_t cells = 0;
-  std::string text;  // <Points> and <Cells>
+  std::string text;  // `Points` and `Cells`
 };
 EncodedGrid encoded(const Grid& grid);
 

@@ -16,7 +16,7 @@
 #include "engine/output/read_vtu.h"
 #include "engine/packing/penetration.h"
 #include "engine/rigid/settle.h"
-#include "tools/bench/plain_bullet.h"
+#include "tools/bench/peers/plain_bullet.h"
 #include "tools/scene/read_scene.h"
 
 namespace scree::bench {

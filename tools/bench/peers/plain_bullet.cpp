@@ -1,4 +1,4 @@
-#include "tools/bench/plain_bullet.h"
+#include "tools/bench/peers/plain_bullet.h"
 
 #include <algorithm>
 #include <cmath>
