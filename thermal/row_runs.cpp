@@ -36,6 +36,11 @@ template <int columns>
 SCREE_INLINE void flows_of(std::span<const RowRun> runs, const int* column, const double* value, const double* x,
                            double* flow) {
   for (const RowRun& run : runs) {
+    // The processor's own prefetching ends at pages and does not keep up with rows as short as these.
+    constexpr int ahead = 256;
+    __builtin_prefetch(value + run.begin + ahead);
+    __builtin_prefetch(value + run.begin + ahead + 8);
+    __builtin_prefetch(column + run.begin + ahead);
     const int numbers = columns * run.rows;
     int at = 0;
     for (; at + 4 <= numbers; at += 4) flow_of<columns, 4>(run, column, value, x, at, flow);

@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/huge_pages.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
@@ -98,12 +99,16 @@ class StabilisedScheme : public TimeScheme {
         stable_(stable_step(model).step),
         watched_(ledger_nodes(model)) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
+    for (Columns* columns : {&start_, &newer_, &older_}) {
+      columns->resize(inverse_.size(), 2);
+      prefer_huge_pages(columns->data(), static_cast<std::size_t>(columns->size()) * sizeof(double));
+    }
   }
 
   Step step(const Instant& from, double length) override {
     const int stages = std::isinf(stable_) ? least_stages : stages_for(length, stable_);
     start(from, length);
-    older_.setZero(start_.rows(), 2);
+    older_.setZero();
     newer_ = first_coefficient(stages) * start_;
     WatchedMean mean(watched_);
     for (int j = 2; j <= stages; ++j) {
@@ -148,10 +153,8 @@ class StabilisedScheme : public TimeScheme {
  private:
   // h C^-1 F of the temperatures, and of the error, which nothing drives: the flows of both in one product.
   void start(const Instant& from, double length) {
-    newer_.resize(from.temperature.size(), 2);
     newer_.col(0) = from.temperature;
     newer_.col(1) = from.error;
-    start_.resize(newer_.rows(), 2);
     const Eigen::VectorXd driven = balance_.driven(from.temperature, drives_.at(from.time));
     balance_.flows().for_each_flow<2>(newer_.data(), [&](int row, const double* flow) {
       const double scale = length * inverse_[row];
@@ -162,7 +165,6 @@ class StabilisedScheme : public TimeScheme {
 
   // h L x.
   void rates(const Columns& x, double length, Columns& result) const {
-    result.resize(x.rows(), 2);
     balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) {
       const double scale = length * inverse_[row];
       for (int c = 0; c < 2; ++c) result(row, c) = scale * (flow[c] + linear_.loss[row] * x(row, c));

@@ -1,0 +1,13 @@
+// Large arrays that are read over and over, in pages of 2 MB: with pages of 4 kB a loop that streams through memory waits for
+// addresses as long as for data (thermal/README.md, "Speed").
+#pragma once
+
+#include <cstddef>
+
+namespace scree {
+
+// Asks the system to keep these bytes in huge pages, as far as whole ones fit. Where it does not do that, nothing happens; nor
+// for arrays that are too small to gain.
+void prefer_huge_pages(void* data, std::size_t bytes);
+
+}  // namespace scree
