@@ -75,7 +75,8 @@ void product(benchmark::State& state, Grid grid) {
   const Eigen::Index size = model.capacity.size();
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(2 * size, 0, 1);
   Eigen::VectorXd y(2 * size);
-  for (Eigen::VectorXd* vector : {&x, &y}) prefer_huge_pages(vector->data(), 2 * static_cast<std::size_t>(size) * sizeof(double));
+  for (Eigen::VectorXd* vector : {&x, &y})
+    prefer_huge_pages(vector->data(), 2 * static_cast<std::size_t>(size) * sizeof(double));
   for (auto _ : state) {
     flows.for_each_flow<2>(x.data(), [&y](int row, const double* flow) {
       y[2 * static_cast<Eigen::Index>(row)] = flow[0];
