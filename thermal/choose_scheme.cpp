@@ -31,10 +31,11 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
   if (!can_be_stabilised(model)) {
     return {make_implicit_scheme(model), "conditions or properties change, which stabilised explicit steps do not do"};
   }
-  const double products = stabilised_products(model, options);
+  const double stable = stable_step(model).step;
+  const double products = stabilised_products(stable, options);
   const double stabilised = products * seconds_per_entry * static_cast<double>(model.conductance.nonZeros());
   if (stabilised < least_implicit(model)) {
-    return {make_stabilised_scheme(model),
+    return {make_stabilised_scheme(model, stable),
             fmt::format("some {:.0f} products with K, less than a factorisation takes", products)};
   }
   auto implicit = make_linear_scheme(model);
@@ -42,7 +43,7 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
   const double direct = factorisations * seconds_per_flop * factor.flops + solves * seconds_per_factor * factor.entries;
   const std::string figures = fmt::format("{:.0f} products with K or {:.3g} flops a factorisation: about {:.2g} s or {:.2g} s",
                                           products, factor.flops, stabilised, direct);
-  if (stabilised < direct) return {make_stabilised_scheme(model), figures};
+  if (stabilised < direct) return {make_stabilised_scheme(model, stable), figures};
   return {std::move(implicit), figures};
 }
 

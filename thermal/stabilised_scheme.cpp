@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -91,12 +92,12 @@ class WatchedMean {
 
 class StabilisedScheme : public TimeScheme {
  public:
-  explicit StabilisedScheme(const HeatModel& model)
+  StabilisedScheme(const HeatModel& model, double stable)
       : inverse_(model.capacity.cwiseInverse()),
         drives_(model),
         balance_(model, Sums::plain),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
-        stable_(stable_step(model).step),
+        stable_(stable),
         watched_(ledger_nodes(model)) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
     for (Columns* columns : {&start_, &newer_, &older_}) {
@@ -202,21 +203,20 @@ class StabilisedScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model) {
+std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<double> stable) {
   if (!can_be_stabilised(model)) {
     throw InputError(problem("heat.integrator", "stabilised_explicit",
                              "must not be asked to do radiation, or properties, coefficients or conditions that change in time",
                              "Use the implicit integrator"));
   }
-  return std::make_unique<StabilisedScheme>(model);
+  return std::make_unique<StabilisedScheme>(model, stable ? *stable : stable_step(model).step);
 }
 
 bool can_be_stabilised(const HeatModel& model) {
   return has_constant_properties(model) && !varies_in_time(model);
 }
 
-double stabilised_products(const HeatModel& model, const TimeOptions& options) {
-  const double stable = stable_step(model).step;
+double stabilised_products(double stable, const TimeOptions& options) {
   if (std::isinf(stable)) return 0;
   // After a sudden start steps grow with time, each some fifth of what has passed, up to the output interval.
   const double every = options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;

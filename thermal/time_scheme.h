@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,7 +72,8 @@ std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model);
 std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model);
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
-std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model);
+// `stable`: stable_step() of the model, if it is known already [s].
+std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<double> stable = {});
 
 // The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them, and those that
 // exchange heat with surroundings. Ascending.
@@ -79,7 +81,7 @@ std::vector<NodeId> ledger_nodes(const HeatModel& model);
 
 bool can_be_stabilised(const HeatModel& model);
 
-// How many products with K a run of stabilised steps will take, about.
-double stabilised_products(const HeatModel& model, const TimeOptions& options);
+// How many products with K a run of stabilised steps will take, about; from the stable step [s].
+double stabilised_products(double stable, const TimeOptions& options);
 
 }  // namespace scree::thermal
