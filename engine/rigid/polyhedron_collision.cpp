@@ -277,6 +277,10 @@ struct WrappedPair {
   }
 };
 
+int block_of(const btBroadphaseProxy* proxy) {
+  return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
+}
+
 btDefaultCollisionConstructionInfo pools(int blocks) {
   btDefaultCollisionConstructionInfo info;
   // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
@@ -288,7 +292,8 @@ btDefaultCollisionConstructionInfo pools(int blocks) {
 
 }  // namespace
 
-Dispatcher::Dispatcher(CollisionConfiguration& configuration) : btCollisionDispatcher(&configuration) {
+Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights)
+    : btCollisionDispatcher(&configuration), flights_(flights) {
   setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
 }
 
@@ -299,6 +304,7 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   };
   btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
   const auto count = static_cast<std::size_t>(pairs.size());
+  if (flights_.count() > 0) end_flights(*cache);
   for (int i = 0; i < pairs.size(); ++i) add_algorithm(pairs[i]);
   std::vector<std::vector<News>> news(chunk_count(count));
   for_chunks(count, [&](Chunk chunk) {
@@ -329,8 +335,13 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   }
 }
 
+void Dispatcher::end_flights(btOverlappingPairCache& cache) {
+  const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i) flights_.meet(block_of(pairs[i].m_pProxy0), block_of(pairs[i].m_pProxy1));
+}
+
 void Dispatcher::add_algorithm(btBroadphasePair& pair) {
-  if (pair.m_algorithm != nullptr) return;
+  if (pair.m_algorithm != nullptr || flights_.together(block_of(pair.m_pProxy0), block_of(pair.m_pProxy1))) return;
   const WrappedPair wrapped(pair);
   if (!needsCollision(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject())) return;
   pair.m_algorithm = findAlgorithm(&wrapped.first, &wrapped.second, nullptr, BT_CONTACT_POINT_ALGORITHMS);

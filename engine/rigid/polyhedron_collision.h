@@ -8,6 +8,7 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 
 #include "engine/packing/separation.h"
+#include "engine/rigid/flights.h"
 
 namespace scree::rigid {
 
@@ -34,12 +35,16 @@ class CollisionConfiguration final : public btDefaultCollisionConfiguration {
 // the same order for any number of threads.
 class Dispatcher final : public btCollisionDispatcher {
  public:
-  explicit Dispatcher(CollisionConfiguration& configuration);
+  // The objects' user indices are their blocks. Blocks that fly together are not looked at.
+  Dispatcher(CollisionConfiguration& configuration, Flights& flights);
   void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
 
  private:
+  void end_flights(btOverlappingPairCache& cache);
   void add_algorithm(btBroadphasePair& pair);
+
+  Flights& flights_;
 };
 
 }  // namespace scree::rigid

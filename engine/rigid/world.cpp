@@ -88,8 +88,11 @@ double density_of(const Material& material) {
 }  // namespace
 
 struct World::Bullet {
-  Bullet(const ContactRanges& ranges, int blocks)
-      : configuration(ranges, blocks), dispatcher(configuration), world(&dispatcher, &broadphase, &solver, &configuration) {
+  Bullet(const ContactRanges& ranges, const mesh::BlockMesh<3>& mesh, const SettleOptions& options)
+      : configuration(ranges, static_cast<int>(mesh.blocks.size())),
+        flights(mesh, options.release_time > 0),
+        dispatcher(configuration, flights),
+        world(&dispatcher, &broadphase, &solver, &configuration) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;  // added to every bounding box
     btContactSolverInfo& info = world.getSolverInfo();
@@ -105,6 +108,7 @@ struct World::Bullet {
   }
 
   CollisionConfiguration configuration;
+  Flights flights;
   Dispatcher dispatcher;
   btDbvtBroadphase broadphase;
   WarmSolver solver;
@@ -122,7 +126,7 @@ struct World::Item {
 };
 
 World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
-    : bullet_(std::make_unique<Bullet>(ranges_for(mesh, options), static_cast<int>(mesh.blocks.size()))) {
+    : bullet_(std::make_unique<Bullet>(ranges_for(mesh, options), mesh, options)) {
   bullet_->world.setGravity(to_bullet(options.gravity));
   for (const BlockId block : mesh.blocks.ids())
     add_block(mesh, block, materials[mesh.bodies[mesh.blocks[block].body].material]);
@@ -214,6 +218,10 @@ void World::step(double time_step, int iterations) {
 
 std::size_t World::block_count() const {
   return items_.size();
+}
+
+int World::flying() const {
+  return bullet_->flights.count();
 }
 
 double World::radius(BlockId block) const {

@@ -29,6 +29,7 @@ class World {
   [[nodiscard]] std::size_t hanging() const { return order_.size() - released_; }
   [[nodiscard]] std::size_t movable() const { return order_.size(); }  // whether let go or not
   [[nodiscard]] std::size_t block_count() const;
+  [[nodiscard]] int flying() const;  // bodies whose blocks still fly as one (flights.h)
 
   // The free blocks that were let go and are still in the scene, and their bodies in the same order.
   [[nodiscard]] const std::vector<BlockId>& free_blocks() const { return free_; }
