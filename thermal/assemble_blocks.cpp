@@ -6,6 +6,7 @@
 #include "engine/base/threads.h"
 #include "engine/mesh/cells.h"
 #include "thermal/repeated_cells.h"
+#include "thermal/sparse_sum.h"
 
 namespace scree::thermal {
 
@@ -150,18 +151,17 @@ class RowSum {
   std::vector<Entry> row_;
 };
 
+// Each chunk on its own, by all threads.
 SparseMatrix joined(const std::vector<Chunk>& chunks, Eigen::Index size) {
-  SparseMatrix matrix(size, size);
-  std::size_t entries = 0;
-  for (const Chunk& chunk : chunks) entries += chunk.columns.size();
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(entries));
-  int offset = 0;
-  Eigen::Index row = 0;
-  for (const Chunk& chunk : chunks) {
-    std::copy(chunk.columns.begin(), chunk.columns.end(), matrix.innerIndexPtr() + offset);
-    std::copy(chunk.values.begin(), chunk.values.end(), matrix.valuePtr() + offset);
-    for (const int end : chunk.ends) matrix.outerIndexPtr()[++row] = offset + end;
-    offset += static_cast<int>(chunk.columns.size());
+  std::vector<int> offset(chunks.size() + 1, 0);
+  for (std::size_t c = 0; c < chunks.size(); ++c) offset[c + 1] = offset[c] + static_cast<int>(chunks[c].columns.size());
+  SparseMatrix matrix = uninitialised(size, offset.back());
+#pragma omp parallel for schedule(static) if (size >= rows_worth_sharing)
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    std::copy(chunks[c].columns.begin(), chunks[c].columns.end(), matrix.innerIndexPtr() + offset[c]);
+    std::copy(chunks[c].values.begin(), chunks[c].values.end(), matrix.valuePtr() + offset[c]);
+    int* end = matrix.outerIndexPtr() + c * rows_in_chunk + 1;
+    for (const int row_end : chunks[c].ends) *end++ = offset[c] + row_end;
   }
   return matrix;
 }

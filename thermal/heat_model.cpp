@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "engine/base/huge_pages.h"
 #include "engine/mesh/cells.h"
 #include "thermal/assemble_blocks.h"
 #include "thermal/block_conduction.h"
@@ -187,9 +186,6 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   apply_boundaries(mesh, options, model);
   model.conductance = assemble_blocks(mesh, materials, model);
   add_joints(contacts, joints, options.joint.form, model.conductance);
-  const auto entries = static_cast<std::size_t>(model.conductance.nonZeros());
-  prefer_huge_pages(model.conductance.valuePtr(), entries * sizeof(double));
-  prefer_huge_pages(model.conductance.innerIndexPtr(), entries * sizeof(int));
   return model;
 }
 

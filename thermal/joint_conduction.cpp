@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "thermal/contact_conduction.h"
+#include "thermal/sparse_sum.h"
 
 namespace scree::thermal {
 
@@ -21,7 +22,7 @@ class GrowingSum {
   void add(SparseMatrix part) {
     std::size_t parts = 1;
     while (!sums_.empty() && sums_.back().parts == parts) {
-      part = SparseMatrix(sums_.back().sum + part);
+      part = sum_of(sums_.back().sum, part);
       parts *= 2;
       sums_.pop_back();
     }
@@ -32,8 +33,8 @@ class GrowingSum {
     if (sums_.empty()) return;
     SparseMatrix total = std::move(sums_.back().sum);
     sums_.pop_back();
-    for (; !sums_.empty(); sums_.pop_back()) total = SparseMatrix(sums_.back().sum + total);
-    matrix += total;
+    for (; !sums_.empty(); sums_.pop_back()) total = sum_of(sums_.back().sum, total);
+    matrix = sum_of(matrix, total);
   }
 
  private:

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uintptr_t huge = 1 << 21;
 constexpr std::size_t worth_it = 4 * huge;
-constexpr int collapse = 25;  // MADV_COLLAPSE: at once, what has been written included; Linux 6.1 and later
 
 }  // namespace
 
@@ -19,9 +18,7 @@ void prefer_huge_pages(void* data, std::size_t bytes) {
   const auto address = reinterpret_cast<std::uintptr_t>(data);
   const std::uintptr_t begin = (address + huge - 1) / huge * huge;
   const std::uintptr_t end = (address + bytes) / huge * huge;
-  void* const whole = static_cast<char*>(data) + (begin - address);
-  madvise(whole, end - begin, MADV_HUGEPAGE);
-  madvise(whole, end - begin, collapse);
+  madvise(static_cast<char*>(data) + (begin - address), end - begin, MADV_HUGEPAGE);
 }
 
 }  // namespace scree

@@ -6,8 +6,8 @@
 
 namespace scree {
 
-// Asks the system to keep these bytes in huge pages, as far as whole ones fit. Where it does not do that, nothing happens; nor
-// for arrays that are too small to gain.
+// Asks the system to keep these bytes, into which nothing has been written yet, in huge pages as far as whole ones fit. Where
+// it does not do that, nothing happens; nor for arrays that are too small to gain.
 void prefer_huge_pages(void* data, std::size_t bytes);
 
 }  // namespace scree

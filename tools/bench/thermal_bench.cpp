@@ -73,10 +73,11 @@ void product(benchmark::State& state, Grid grid) {
   use_threads(static_cast<int>(state.range(1)));
   const thermal::FlowNetwork flows(&model.conductance, thermal::Sums::plain);
   const Eigen::Index size = model.capacity.size();
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(2 * size, 0, 1);
-  Eigen::VectorXd y(2 * size);
-  for (Eigen::VectorXd* vector : {&x, &y})
+  Eigen::VectorXd x(2 * size), y(2 * size);
+  for (Eigen::VectorXd* vector : {&x, &y}) {
     prefer_huge_pages(vector->data(), 2 * static_cast<std::size_t>(size) * sizeof(double));
+    vector->setRandom();
+  }
   for (auto _ : state) {
     flows.for_each_flow<2>(x.data(), [&y](int row, const double* flow) {
       y[2 * static_cast<Eigen::Index>(row)] = flow[0];
