@@ -68,9 +68,8 @@ struct Body {
 std::unique_ptr<btCollisionShape> hull_of(const mesh::BlockMesh<3>& mesh, const mesh::Block& block,
                                           const Eigen::Vector3d& centre) {
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const NodeId node : block.nodes) hull->addPoint(to_bullet(mesh.nodes[node] - centre), false);
-  hull->recalcLocalAabb();
-  hull->setMargin(margin);
+  hull->setMargin(margin);  // before the points: the box that Bullet keeps has the margin of that time
+  for (const NodeId node : block.nodes) hull->addPoint(to_bullet(mesh.nodes[node] - centre));
   return hull;
 }
 
@@ -116,6 +115,9 @@ class PlainWorld {
       if (body.body->getInvMass() == 0) continue;
       body.body->translate({0, 0, -gravity * time * time / 2});
       body.body->setLinearVelocity({0, 0, -gravity * time});
+      // Or the boxes of the first step reach back to where the fall began, and millions of pairs overlap.
+      body.body->setInterpolationWorldTransform(body.body->getWorldTransform());
+      body.body->setInterpolationLinearVelocity(body.body->getLinearVelocity());
     }
     return time;
   }
