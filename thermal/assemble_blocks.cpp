@@ -25,18 +25,20 @@ struct Incidence {
   std::vector<std::uint32_t> begin;  // of each node, and the end
   std::vector<std::uint32_t> of_node;
 
-  explicit Incidence(const mesh::BlockMesh<dim>& mesh) : begin(mesh.nodes.size() + 1, 0) {
-    for_each_use(mesh, [&](NodeId node, std::uint32_t) { ++begin[node.index() + 1]; });
+  Incidence(const mesh::BlockMesh<dim>& mesh, const std::optional<LumpedBlocks>& lumped) : begin(mesh.nodes.size() + 1, 0) {
+    for_each_use(mesh, lumped, [&](NodeId node, std::uint32_t) { ++begin[node.index() + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     of_node.resize(begin.back());
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for_each_use(mesh, [&](NodeId node, std::uint32_t piece) { of_node[next[node.index()]++] = piece; });
+    for_each_use(mesh, lumped, [&](NodeId node, std::uint32_t piece) { of_node[next[node.index()]++] = piece; });
   }
 
  private:
   template <class Visit>
-  static void for_each_use(const mesh::BlockMesh<dim>& mesh, const Visit& visit) {
-    for (const mesh::Block& block : mesh.blocks) {
+  static void for_each_use(const mesh::BlockMesh<dim>& mesh, const std::optional<LumpedBlocks>& lumped, const Visit& visit) {
+    for (const BlockId b : mesh.blocks.ids()) {
+      if (lumped && lumped->contain(b)) continue;
+      const mesh::Block& block = mesh.blocks[b];
       for (const CellId cell : block.cells) {
         const mesh::Cell& corners = mesh.cells[cell];
         for (std::size_t i = 0; i < mesh::corner_count(corners.kind); ++i) {
@@ -217,7 +219,7 @@ void set_capacities(const Pieces<dim>& pieces, const Table<MaterialId, Material>
 
 template <int dim>
 SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
-  const Incidence<dim> incidence(mesh);
+  const Incidence<dim> incidence(mesh, model.lumped);
   const Pieces<dim> pieces(mesh, materials);
   set_capacities(pieces, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),

@@ -88,9 +88,11 @@ class Applier {
  private:
   using SharesByNode = std::map<NodeId, double>;
 
-  static NodeShares listed(const SharesByNode& by_node) {
+  NodeShares listed(const SharesByNode& by_node) const {
     NodeShares list;
+    list.places.resize(3, static_cast<Eigen::Index>(by_node.size()));
     for (const auto& [node, share] : by_node) {
+      list.places.col(static_cast<Eigen::Index>(list.nodes.size())) = place(node);
       list.nodes.push_back(node);
       list.shares.push_back(share);
     }

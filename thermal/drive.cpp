@@ -26,13 +26,12 @@ constexpr Range kelvin{0, infinity, "must be a temperature of 0 K or more"};
 constexpr Range coefficient_range{0, infinity, "must not be negative, W/m2/K"};
 constexpr Range emissivity_range{0, 1, "must be from 0 to 1"};
 
-// Functions at the places of nodes, checked.
+// Functions at places, checked.
 class Evaluator {
  public:
-  Evaluator(const HeatModel& model, double time) : model_(model), time_(time) {}
+  explicit Evaluator(double time) : time_(time) {}
 
-  double operator()(const Function& function, NodeId node, const std::string& name, const Range& range) const {
-    const Eigen::Vector3d place = model_.places.col(node.value());
+  double operator()(const Function& function, const Eigen::Vector3d& place, const std::string& name, const Range& range) const {
     const double value = function(place, time_);
     if (std::isfinite(value) && value >= range.least && value <= range.largest) return value;
     throw InputError(problem(
@@ -41,7 +40,6 @@ class Evaluator {
   }
 
  private:
-  const HeatModel& model_;
   double time_;
 };
 
@@ -54,12 +52,12 @@ ExchangeRates rates(const Exchange& exchange, const Evaluator& evaluate) {
   ExchangeRates result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   const bool radiates = exchange.law == Exchange::Law::radiation;
   for (std::size_t i = 0; i < count; ++i) {
-    const NodeId node = exchange.on.nodes[i];
     const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Vector3d place = exchange.on.places.col(row);
     const double coefficient =
-        evaluate(exchange.coefficient, node, exchange.name, radiates ? emissivity_range : coefficient_range);
+        evaluate(exchange.coefficient, place, exchange.name, radiates ? emissivity_range : coefficient_range);
     result.factor[row] = (radiates ? stefan_boltzmann : 1) * coefficient * exchange.on.shares[i];
-    result.surroundings[row] = evaluate(exchange.surroundings, node, exchange.name, kelvin);
+    result.surroundings[row] = evaluate(exchange.surroundings, place, exchange.name, kelvin);
   }
   return result;
 }
@@ -83,17 +81,19 @@ Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(mod
 
 void Drives::evaluate(Part part, Drive& drive) const {
   const bool varying = part == Part::varying;
-  const Evaluator value(model_, drive.time);
+  const Evaluator value(drive.time);
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
     const Hold& hold = model_.holds[model_.fixed_hold[i]];
     if (hold.temperature.varies_in_time() != varying) continue;
-    drive.fixed[static_cast<Eigen::Index>(i)] = value(hold.temperature, model_.fixed_nodes[i], hold.name, kelvin);
+    drive.fixed[static_cast<Eigen::Index>(i)] =
+        value(hold.temperature, model_.places.col(model_.fixed_nodes[i].value()), hold.name, kelvin);
   }
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
     if (load.density.varies_in_time() != varying) continue;
     for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
-      const double heat = load.on.shares[i] * value(load.density, load.on.nodes[i], load.name, any_value);
+      const Eigen::Vector3d place = load.on.places.col(static_cast<Eigen::Index>(i));
+      const double heat = load.on.shares[i] * value(load.density, place, load.name, any_value);
       drive.load[load.on.nodes[i].value()] += heat;
       drive.by_load[l] += heat;
     }

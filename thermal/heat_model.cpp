@@ -9,7 +9,9 @@
 #include "thermal/assemble_blocks.h"
 #include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
+#include "thermal/choose_lumped.h"
 #include "thermal/joint_conduction.h"
+#include "thermal/lump.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -184,8 +186,10 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_initial(mesh, options, model);
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
+  model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
   model.conductance = assemble_blocks(mesh, materials, model);
-  add_joints(contacts, joints, options.joint.form, model.conductance);
+  if (model.lumped) lump(mesh, materials, model);
+  add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;
 }
 

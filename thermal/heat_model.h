@@ -10,15 +10,18 @@
 #include "engine/base/material.h"
 #include "thermal/heat_options.h"
 #include "thermal/joint_conduction.h"
+#include "thermal/lumped_blocks.h"
+#include "thermal/node_map.h"
 
 namespace scree::thermal {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-// Nodes and what each has of a surface or a volume.
+// Nodes and what each has of a surface or a volume; a row of a lumped block may occur many times.
 struct NodeShares {
   std::vector<NodeId> nodes;
   std::vector<double> shares;  // [m2] or [m3]
+  Eigen::Matrix3Xd places;     // where each is, for functions of place [m]
 };
 
 // A temperature that nodes are held at.
@@ -55,10 +58,12 @@ struct VaryingProperties {
   SparseMatrix unit_conductance;
 };
 
-// One row per node of the mesh, in its order. K is symmetric with zero row sums.
+// One row per node of the mesh, in its order, but one for all nodes of a lumped block; NodeId counts rows here. K is symmetric
+// with zero row sums.
 struct HeatModel {
-  Table<NodeId, BlockId> blocks;    // of each node, for messages
-  Eigen::Matrix3Xd places;          // of each node, for functions of place [m]
+  NodeMap rows;                     // of the mesh's nodes
+  Table<NodeId, BlockId> blocks;    // of each row, for messages
+  Eigen::Matrix3Xd places;          // of each row, for functions of place: a lumped block's first node [m]
   Eigen::VectorXd capacity;         // lumped, eq. (7) [J/K]
   SparseMatrix conductance;         // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
   Eigen::VectorXd initial;          // [K]
@@ -70,6 +75,7 @@ struct HeatModel {
   std::vector<Exchange> exchanges;
   // Nothing if no property depends on temperature; `capacity` is that of the initial temperatures otherwise.
   std::optional<VaryingProperties> varying;
+  std::optional<LumpedBlocks> lumped;  // nothing if every block is meshed
   // For messages.
   Table<BlockId, BodyId> bodies;
   Table<BodyId, std::string> body_names;

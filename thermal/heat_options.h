@@ -1,6 +1,8 @@
 // What a scene says about heat.
 #pragma once
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -68,6 +70,30 @@ enum class Integrator {
   explicit_euler,       // eq. (8)
 };
 
+// How a block's inside is resolved.
+enum class BlockModel {
+  meshed,     // a temperature per node
+  lumped,     // one temperature
+  automatic,  // one where its Biot number is below BlockOptions::largest_biot and nothing holds or ties its nodes
+};
+
+struct BlockOptions {
+  BlockModel model = BlockModel::meshed;  // of every body that has none of its own
+  // Far below the 0.1 of textbooks (Incropera and DeWitt, section 5.2), where the inside differs by some 5 %.
+  double largest_biot = 0.01;  // [-]
+  std::map<BodyId, BlockModel> of_body;
+  SourceLocation where;  // in the scene, for messages
+
+  [[nodiscard]] BlockModel of(BodyId body) const {
+    const auto own = of_body.find(body);
+    return own == of_body.end() ? model : own->second;
+  }
+  [[nodiscard]] bool all_meshed() const {
+    return model == BlockModel::meshed &&
+           std::all_of(of_body.begin(), of_body.end(), [](const auto& own) { return own.second == BlockModel::meshed; });
+  }
+};
+
 struct TimeOptions {
   bool steady = false;      // the steady state itself; nothing else here has a use then
   double until = 0;         // [s]
@@ -83,6 +109,7 @@ struct HeatOptions {
   std::vector<Boundary> boundaries;
   std::vector<Source> sources;
   JointOptions joint;
+  BlockOptions blocks;
   TimeOptions time;
 };
 

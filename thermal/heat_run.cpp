@@ -70,10 +70,12 @@ class HeatRun::Implementation {
     state_.given.include(model_.initial);
     include_drive(0);
     state_.reached.include(state_.temperature);
+    if (model_.lumped) state_.lumping = lumping_.emplace(model_).start();
   }
 
   void resume(HeatState state) {
     const bool fits = state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
+                      state.lumping.carried.size() == state_.lumping.carried.size() &&
                       state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
                       state.ledger.by_applied.size() == state_.ledger.by_applied.size() &&
                       state.ledger.by_surroundings.size() == state_.ledger.by_surroundings.size();
@@ -183,6 +185,7 @@ class HeatRun::Implementation {
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
     state_.reached.include(state_.temperature);
+    if (lumping_) lumping_->advance(state_.temperature, drives_.at(time), dt, state_.lumping);
     if (drives_.vary()) include_drive(time);
     if (progress) progress(time);
   }
@@ -193,7 +196,8 @@ class HeatRun::Implementation {
   ChosenScheme scheme_;  // refers to model_
   Bookkeeper bookkeeper_;
   Drives drives_;
-  double explicit_step_ = 0;  // [s]
+  std::optional<LumpingEstimate> lumping_;  // if blocks are lumped
+  double explicit_step_ = 0;                // [s]
   HeatState state_;
   std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "thermal/heat_model.h"
+#include "thermal/lumping_error.h"
 
 namespace scree::thermal {
 
@@ -38,8 +39,8 @@ struct TemperatureRange {
 // Everything a later process needs to go on as if it had never stopped.
 struct HeatState {
   double time = 0;              // [s]
-  Eigen::VectorXd temperature;  // one per node [K]
-  Eigen::VectorXd error;        // estimate of the global time error, one per node [K]
+  Eigen::VectorXd temperature;  // one per row of the model [K]
+  Eigen::VectorXd error;        // estimate of the global time error, one per row [K]
   double next_step = 0;         // what the step control would take [s]
   Ledger ledger;
   double time_error = 0;  // bound on |error| at any node and any step so far, with the scheme's safety [K]
@@ -52,6 +53,7 @@ struct HeatState {
   // of boundaries and of surroundings.
   TemperatureRange reached;
   TemperatureRange given;
+  LumpingError lumping;
 };
 
 // The first output time after `time`: a multiple of the output interval, or the end [s].

@@ -13,14 +13,14 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 2";
+constexpr const char* format_name = "scree heat state 3";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
 
 // A state as plain lists, in the order in which they are written.
 struct Lists {
-  Doubles temperature, error, by_boundary, by_applied, by_surroundings, numbers;
+  Doubles temperature, error, lumping, by_boundary, by_applied, by_surroundings, numbers;
   Counts counts;
 };
 
@@ -36,11 +36,13 @@ Lists pack(const HeatState& state) {
   const Ledger& ledger = state.ledger;
   return {list_of(state.temperature),
           list_of(state.error),
+          list_of(state.lumping.carried),
           ledger.by_boundary,
           ledger.by_applied,
           ledger.by_surroundings,
           {state.time, state.next_step, state.time_error, state.least_step, state.largest_step, ledger.start_jump,
-           ledger.stored, ledger.turnover, state.reached.least, state.reached.largest, state.given.least, state.given.largest},
+           ledger.stored, ledger.turnover, state.reached.least, state.reached.largest, state.given.least, state.given.largest,
+           state.lumping.largest},
           {state.steps, state.rejected_steps, state.factorisations}};
 }
 
@@ -48,6 +50,7 @@ HeatState unpack(const Lists& lists) {
   HeatState state;
   state.temperature = vector_of(lists.temperature);
   state.error = vector_of(lists.error);
+  state.lumping = {vector_of(lists.lumping), lists.numbers.at(12)};
   state.ledger.by_boundary = lists.by_boundary;
   state.ledger.by_applied = lists.by_applied;
   state.ledger.by_surroundings = lists.by_surroundings;
@@ -70,8 +73,8 @@ HeatState unpack(const Lists& lists) {
 std::string digest(const std::string& key, const Lists& lists) {
   Hasher hasher;
   hasher.add(key);
-  for (const Doubles* list :
-       {&lists.temperature, &lists.error, &lists.by_boundary, &lists.by_applied, &lists.by_surroundings, &lists.numbers}) {
+  for (const Doubles* list : {&lists.temperature, &lists.error, &lists.lumping, &lists.by_boundary, &lists.by_applied,
+                              &lists.by_surroundings, &lists.numbers}) {
     hasher.add(list->size()).add_bytes(list->data(), list->size() * sizeof(double));
   }
   hasher.add_bytes(lists.counts.data(), lists.counts.size() * sizeof(std::int64_t));
@@ -136,6 +139,7 @@ void write(const HeatState& state, const std::string& key, const std::filesystem
       put_text(out, "digest", digest(key, lists));
       put(out, "temperature", lists.temperature);
       put(out, "error", lists.error);
+      put(out, "lumping", lists.lumping);
       put(out, "by_boundary", lists.by_boundary);
       put(out, "by_applied", lists.by_applied);
       put(out, "by_surroundings", lists.by_surroundings);
@@ -158,12 +162,13 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     Lists lists;
     get(in, "temperature", lists.temperature);
     get(in, "error", lists.error);
+    get(in, "lumping", lists.lumping);
     get(in, "by_boundary", lists.by_boundary);
     get(in, "by_applied", lists.by_applied);
     get(in, "by_surroundings", lists.by_surroundings);
     get(in, "numbers", lists.numbers);
     get(in, "counts", lists.counts);
-    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 12 && lists.counts.size() == 3;
+    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 13 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {
       refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",

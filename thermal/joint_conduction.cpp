@@ -45,6 +45,26 @@ class GrowingSum {
   std::vector<Sum> sums_;
 };
 
+// The same difference between rows of the model: all of a lumped side's weight is on its one row.
+template <int dim>
+TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, const NodeMap& rows) {
+  if (rows.is_identity()) return difference;
+  for (int side = 0; side < 2 * dim; side += dim) {
+    int first = -1;  // of the side's entries in use
+    for (int i = side; i < side + dim; ++i) {
+      if (difference.weights[i] == 0) continue;
+      difference.nodes[i] = rows[difference.nodes[i]];
+      if (first < 0) {
+        first = i;
+      } else if (difference.nodes[i] == difference.nodes[first]) {
+        difference.weights[first] = side == 0 ? 1 : -1;
+        difference.weights[i] = 0;
+      }
+    }
+  }
+  return difference;
+}
+
 // g w w^T.
 template <int dim>
 void add_contact(const TemperatureDifference<dim>& difference, double conductance, Triplets& entries) {
@@ -64,7 +84,7 @@ class PerfectSum {
   static constexpr int corners = PerfectTerm<dim>::corners;
   using Matrix = Eigen::Matrix<double, corners, corners>;
 
-  explicit PerfectSum(Triplets& entries) : entries_(entries) {}
+  PerfectSum(const NodeMap& rows, Triplets& entries) : rows_(rows), entries_(entries) {}
 
   void add(const PerfectTerm<dim>& term, double conductance) {
     if (term.nodes != nodes_) flush();
@@ -78,7 +98,7 @@ class PerfectSum {
     for (int i = 0; i < corners; ++i) {
       for (int j = 0; j < i; ++j) {
         if (sum_(i, j) == 0) continue;
-        const int row = nodes_[i].value(), column = nodes_[j].value();
+        const int row = rows_[nodes_[i]].value(), column = rows_[nodes_[j]].value();
         entries_.emplace_back(row, column, sum_(i, j));
         entries_.emplace_back(column, row, sum_(i, j));
         entries_.emplace_back(row, row, -sum_(i, j));
@@ -89,6 +109,7 @@ class PerfectSum {
   }
 
  private:
+  const NodeMap& rows_;
   Triplets& entries_;
   std::array<NodeId, corners> nodes_;
   Matrix sum_ = Matrix::Zero();
@@ -119,16 +140,16 @@ namespace {
 // Of the contacts from `first` to before `last`.
 template <int dim>
 void add_entries(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                 std::size_t first, std::size_t last, Triplets& entries) {
+                 const NodeMap& rows, std::size_t first, std::size_t last, Triplets& entries) {
   auto perfect = std::lower_bound(conduction.perfect.begin(), conduction.perfect.end(), first,
                                   [](const PerfectTerm<dim>& term, std::size_t contact) { return term.contact < contact; });
-  PerfectSum<dim> sum(entries);
+  PerfectSum<dim> sum(rows, entries);
   for (std::size_t c = first; c < last; ++c) {
     const double conductance = conduction.conductances[c];
     if (perfect != conduction.perfect.end() && perfect->contact == c) {
       sum.add(*perfect++, conductance);
     } else if (conductance > 0) {
-      add_contact(temperature_difference(contacts.contacts[c], form), conductance, entries);
+      add_contact(between_rows(temperature_difference(contacts.contacts[c], form), rows), conductance, entries);
     }
   }
   sum.flush();
@@ -138,14 +159,14 @@ void add_entries(const contact::ContactSet<dim>& contacts, const JointConduction
 
 template <int dim>
 void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                SparseMatrix& conductance) {
+                const NodeMap& rows, SparseMatrix& conductance) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
   Triplets entries;
   GrowingSum sum;
   for (std::size_t first = 0; first < conduction.conductances.size(); first += contacts_at_once) {
     const std::size_t last = std::min(first + contacts_at_once, conduction.conductances.size());
     entries.clear();
-    add_entries(contacts, conduction, form, first, last, entries);
+    add_entries(contacts, conduction, form, rows, first, last, entries);
     SparseMatrix part(conductance.rows(), conductance.cols());
     part.setFromTriplets(entries.begin(), entries.end());
     sum.add(std::move(part));
@@ -177,12 +198,12 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
   return flows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                         \
-  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
-                                                      const contact::ContactSet<dim>&, const JointOptions&);           \
-  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm,               \
-                                Eigen::SparseMatrix<double>&);                                                         \
-  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,        \
+#define SCREE_INSTANTIATE(dim)                                                                                           \
+  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,   \
+                                                      const contact::ContactSet<dim>&, const JointOptions&);             \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, const NodeMap&, \
+                                Eigen::SparseMatrix<double>&);                                                           \
+  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,          \
                                                   const Eigen::VectorXd&, JointForm);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

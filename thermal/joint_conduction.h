@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "thermal/node_map.h"
 #include "thermal/perfect_joint.h"
 
 namespace scree::thermal {
@@ -23,9 +24,9 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
 // Adds the entries of K, a part of the contacts at a time.
 template <int dim>
 void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                Eigen::SparseMatrix<double>& conductance);
+                const NodeMap& rows, Eigen::SparseMatrix<double>& conductance);
 
-// Heat flow from owner to target through each contact [W].
+// Heat flow from owner to target through each contact [W], from the temperatures of the mesh's nodes [K].
 template <int dim>
 std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction,
                                   const Eigen::VectorXd& temperature, JointForm form);

@@ -6,6 +6,7 @@
 #include "thermal/steady_state.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -49,6 +50,12 @@ class SteadySolver {
     state.error = Eigen::VectorXd::Zero(state.temperature.size());
     state.reached.include(state.temperature);
     state.ledger = flows(state.temperature);
+    if (model_.lumped) {
+      const LumpingEstimate estimate(model_);
+      state.lumping = estimate.start();
+      state.lumping.largest = 0;  // the start is forgotten
+      estimate.advance(state.temperature, drive_, std::numeric_limits<double>::infinity(), state.lumping);
+    }
     return state;
   }
 

@@ -136,6 +136,20 @@ TEST(SceneErrors, HeatNamesBodiesOfTheScene) {
       "--set heat.boundaries[0].temperature: heat.boundaries[0].temperature is -1 (must be not negative, K). Did you mean 1?");
 }
 
+TEST(SceneErrors, BlocksAreLumpedByKnownModelsInBodiesOfTheScene) {
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: lumpd}"}),
+            "--set heat.blocks: heat.blocks.model is lumpd (must be one of meshed, lumped, auto). Did you mean lumped?");
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: auto, largest_biot: -0.1}"}),
+            "--set heat.blocks: heat.blocks.largest_biot is -0.1 (must be not negative). Did you mean 0.1?");
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={bodies: {blok: lumped}}"}),
+            "--set heat.blocks: heat.blocks.bodies.blok is unknown (must be a body of this scene). Did you mean block?");
+  EXPECT_EQ(
+      wrong_with(whole_scene,
+                 {"heat.blocks={bodies: {block: auto}}", "heat.effective_conductivity={low: [0, 0, 0], high: [1, 1, 1]}"}),
+      "--set heat.blocks: heat.blocks is lumped or auto (must be meshed for heat.effective_conductivity). The flux inside "
+      "the blocks is what it measures: take heat.blocks out");
+}
+
 TEST(SceneErrors, NumbersMustBeFiniteAndFit) {
   EXPECT_EQ(wrong_with(whole_scene, {"bodies.block.mesh_size=.nan"}),
             "--set bodies.block.mesh_size: bodies.block.mesh_size is .nan (must be positive, m; not a number, with or without "

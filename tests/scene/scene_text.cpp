@@ -126,6 +126,8 @@ std::string text_of(const thermal::HeatOptions& heat) {
         std::visit([](const auto& ids) { return fmt::format("{} {}", ids[0].value(), ids[1].value()); }, rule.between);
     text += fmt::format("\nrule {} {} {} {}", bodies, pair, text_of(rule.law), text_of(rule.model));
   }
+  text += fmt::format("\nblocks {} {}", static_cast<int>(heat.blocks.model), heat.blocks.largest_biot);
+  for (const auto& [body, model] : heat.blocks.of_body) text += fmt::format(" {} {}", body.value(), static_cast<int>(model));
   const thermal::TimeOptions& time = heat.time;
   return text + fmt::format("\ntime {} {} {} {} {}", time.until, time.tolerance, time.output_every,
                             static_cast<int>(time.integrator), text_of(time.step));

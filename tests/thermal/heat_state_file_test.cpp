@@ -18,6 +18,7 @@ HeatState some_state() {
   state.ledger = {1.0 / 7, {2.0 / 7, -3.0 / 7}, {}, {6.0 / 7}, 4.0 / 7, 5.0 / 7};
   state.reached = {1.0 / 11, 2.0 / 11};
   state.given = {3.0 / 11, 4.0 / 11};
+  state.lumping = {state.temperature / 5, 1.0 / 13};
   state.time_error = 1e-17;
   state.steps = 12;
   state.rejected_steps = 3;
@@ -51,6 +52,8 @@ TEST(HeatStateFile, GivesBackEveryBit) {
   EXPECT_EQ(read.reached.largest, state.reached.largest);
   EXPECT_EQ(read.given.least, state.given.least);
   EXPECT_EQ(read.given.largest, state.given.largest);
+  EXPECT_EQ(read.lumping.carried, state.lumping.carried);
+  EXPECT_EQ(read.lumping.largest, state.lumping.largest);
   EXPECT_EQ(read.steps, state.steps);
   EXPECT_EQ(read.rejected_steps, state.rejected_steps);
   EXPECT_EQ(read.factorisations, state.factorisations);

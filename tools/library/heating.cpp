@@ -30,11 +30,11 @@ Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) 
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
   pile_ = run::placed_pile(scene_, packing);
   run::join(scene_, pile_);
-  auto model = std::make_shared<const thermal::HeatModel>(run::heat_model(scene_, pile_));
+  model_ = std::make_shared<const thermal::HeatModel>(run::heat_model(scene_, pile_));
   if (scene_.heat->time.steady) {
-    steady_ = thermal::steady_state(*model);
+    steady_ = thermal::steady_state(*model_);
   } else {
-    run_.emplace(std::move(model), scene_.heat->time, std::nullopt);
+    run_.emplace(model_, scene_.heat->time, std::nullopt);
   }
 }
 
@@ -49,10 +49,15 @@ void Heating<dim>::advance_to(double time, const std::function<void(double)>& pr
 }
 
 template <int dim>
+Eigen::VectorXd Heating<dim>::temperature() const {
+  return model_->rows.to_nodes(state().temperature);
+}
+
+template <int dim>
 double Heating<dim>::probe(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& probe : pile_.probes) {
-    if (probe.name == name) return output::value_at(probe, pile_.mesh, state().temperature);
+    if (probe.name == name) return output::value_at(probe, pile_.mesh, temperature());
     names.push_back(probe.name);
   }
   refuse(scene_, "a probe", name, "must be one of the scene's", suggest(name, names));
@@ -60,7 +65,7 @@ double Heating<dim>::probe(const std::string& name) const {
 
 template <int dim>
 std::vector<double> Heating<dim>::contact_flows() const {
-  return thermal::contact_flows(pile_.contacts, pile_.joints, state().temperature, scene_.heat->joint.form);
+  return thermal::contact_flows(pile_.contacts, pile_.joints, temperature(), scene_.heat->joint.form);
 }
 
 template <int dim>

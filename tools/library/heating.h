@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ class Heating {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const run::HeatedPile<dim>& pile() const { return pile_; }
   [[nodiscard]] const thermal::HeatState& state() const { return run_ ? run_->state() : steady_; }
+  [[nodiscard]] Eigen::VectorXd temperature() const;  // of every node of the mesh [K]
 
   [[nodiscard]] double probe(const std::string& name) const;  // [K]; throws InputError for a name that is no probe
   [[nodiscard]] std::vector<double> contact_flows() const;    // from owner to target of every contact [W]
@@ -33,6 +35,7 @@ class Heating {
  private:
   Scene scene_;
   run::HeatedPile<dim> pile_;
+  std::shared_ptr<const thermal::HeatModel> model_;
   std::optional<thermal::HeatRun> run_;
   thermal::HeatState steady_;
 };

@@ -50,8 +50,10 @@ const thermal::HeatState& state(const AnyHeating& self) {
 }
 
 py::array temperature(AnyHeating& self) {
-  const Eigen::VectorXd& now = state(self).temperature;
-  if (!self.now) self.now = own(std::vector<double>(now.begin(), now.end()));
+  if (!self.now) {
+    const Eigen::VectorXd now = self.use([](const auto& heating) { return heating.temperature(); });
+    self.now = own(std::vector<double>(now.begin(), now.end()));
+  }
   return *self.now;
 }
 
@@ -128,6 +130,9 @@ void bind_heating(py::module_& module) {
           "Heat flow from owner to target of every contact now [W].")
       .def_property_readonly(
           "time_error", [](const AnyHeating& self) { return state(self).time_error; }, "Estimate of the time error so far [K].")
+      .def_property_readonly(
+          "lumping_error", [](const AnyHeating& self) { return state(self).lumping.largest; },
+          "Estimate of what lumping blocks has changed so far [K]; 0 if none is lumped.")
       .def_property_readonly(
           "ledger_residual", [](const AnyHeating& self) { return state(self).ledger.relative_residual(); },
           "Heat that is missing in the balance, over the heat that flowed.")

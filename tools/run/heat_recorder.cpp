@@ -26,8 +26,8 @@ bool frame_due(const Scene& scene, double time) {
 
 template <int dim>
 HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile,
-                                std::optional<double> resumed_from)
-    : scene_(scene), pile_(pile), restart_(files.restart()), series_(files.directory, "heat", resumed_from) {
+                                const thermal::HeatModel& model, std::optional<double> resumed_from)
+    : scene_(scene), pile_(pile), model_(model), restart_(files.restart()), series_(files.directory, "heat", resumed_from) {
   series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh));
   if (!pile.contacts.contacts.empty()) {
     contact_series_.emplace(files.directory, "contacts", resumed_from);
@@ -57,24 +57,25 @@ void HeatRecorder<dim>::finish() {
 
 template <int dim>
 void HeatRecorder<dim>::write(const thermal::HeatState& state) {
-  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, state.temperature, state.time));
+  const Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
+  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
-  write_frame(state);
+  write_frame(temperature, state);
   thermal::write(state, pile_.key, restart_);
 }
 
 template <int dim>
-void HeatRecorder<dim>::write_frame(const thermal::HeatState& state) {
-  const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, state.temperature);
-  output::Frame frame = heat_frame<dim>(state.time, state.temperature, flux);
-  if (model_ != nullptr) {
-    const auto rate = thermal::temperature_rate(*model_, state.temperature, state.time);
-    const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, state.temperature, rate);
+void HeatRecorder<dim>::write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state) {
+  const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, temperature);
+  output::Frame frame = heat_frame<dim>(state.time, temperature, flux);
+  if (space_error_) {
+    const auto rate = model_.rows.to_nodes(thermal::temperature_rate(model_, state.temperature, state.time));
+    const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, temperature, rate);
     frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
   }
   series_.write(frame);
   if (!contact_series_) return;
-  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, state.temperature, scene_.heat->joint.form);
+  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
   contact_series_->write(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
 }
 

@@ -18,10 +18,11 @@ template <int dim>
 class HeatRecorder {
  public:
   // Starts the files, or goes on with those of a run that reached `resumed_from`.
-  HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, std::optional<double> resumed_from);
+  HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, const thermal::HeatModel& model,
+               std::optional<double> resumed_from);
 
   // Adds the estimate of the space error to every frame from now on.
-  void estimate_space_error(const thermal::HeatModel& model) { model_ = &model; }
+  void estimate_space_error() { space_error_ = true; }
 
   // The files are written beside the computation; what goes wrong is thrown by the next record() or by finish().
   void record(const thermal::HeatState& state);
@@ -32,16 +33,17 @@ class HeatRecorder {
  private:
   // The restart file comes last: it never promises more than the other files hold.
   void write(const thermal::HeatState& state);
-  void write_frame(const thermal::HeatState& state);
+  void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
 
   const Scene& scene_;
   const HeatedPile<dim>& pile_;
+  const thermal::HeatModel& model_;
   std::filesystem::path restart_;
   output::Series series_;
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
-  const thermal::HeatModel* model_ = nullptr;  // of the space error; none if it is not asked for
-  std::future<void> pending_;                  // goes first, so that it ends before what it uses
+  bool space_error_ = false;
+  std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
 
 }  // namespace scree::run

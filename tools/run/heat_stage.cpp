@@ -48,8 +48,8 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
   auto state = interrupted_state(context, outcome.pile.key);
   const auto from = state ? std::optional<double>(state->time) : std::nullopt;
   if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
-  HeatRecorder<dim> recorder(scene, context.files, outcome.pile, from);
-  if (context.estimate_space_error) recorder.estimate_space_error(*outcome.model);
+  HeatRecorder<dim> recorder(scene, context.files, outcome.pile, *outcome.model, from);
+  if (context.estimate_space_error) recorder.estimate_space_error();
   thermal::HeatRun run(outcome.model, scene.heat->time, std::move(state));
   if (!from) recorder.record(run.state());
   march(context, run, recorder);
@@ -60,12 +60,21 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
 // One frame, at t = 0.
 template <int dim>
 void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
-  HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, std::nullopt);
-  if (context.estimate_space_error) recorder.estimate_space_error(*outcome.model);
+  HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, *outcome.model, std::nullopt);
+  if (context.estimate_space_error) recorder.estimate_space_error();
   outcome.state = thermal::steady_state(*outcome.model);
   outcome.solver = "steady state";
   recorder.record(outcome.state);
   recorder.finish();
+}
+
+// How many blocks have one temperature each, if any.
+std::optional<std::string> lumped_words(const thermal::HeatModel& model) {
+  if (!model.lumped) return std::nullopt;
+  const auto range = thermal::biot_range(*model.lumped);
+  return fmt::format("{} of {} blocks are lumped, Biot numbers {:.2g} to {:.2g}; {} temperatures for {} nodes",
+                     model.lumped->all().size(), model.bodies.size(), range.least, range.largest, model.capacity.size(),
+                     model.rows.nodes());
 }
 
 }  // namespace
@@ -84,17 +93,24 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
       return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, window);
     });
   }
+  if (const auto said = lumped_words(*outcome.model)) context.progress.note("heat: " + *said);
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
     scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;
   });
+  if (outcome.model->lumped) {
+    context.progress.note(
+        fmt::format("heat: lumping blocks makes an error of some {:.2g} K (estimated)", outcome.state.lumping.largest));
+  }
   const auto& probes = outcome.pile.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {
     outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
   }
   if (context.estimate_space_error) {
+    const thermal::NodeMap& rows = outcome.model->rows;
     const auto rate = thermal::temperature_rate(*outcome.model, outcome.state.temperature, outcome.state.time);
-    outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials, outcome.state.temperature, rate);
+    outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials,
+                                                        rows.to_nodes(outcome.state.temperature), rows.to_nodes(rate));
   }
   return outcome;
 }

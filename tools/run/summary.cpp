@@ -67,7 +67,8 @@ template <int dim>
 Json joints_json(const HeatOutcome<dim>& outcome, const Scene& scene) {
   const auto& pile = outcome.pile;
   const thermal::JointOptions& joint = scene.heat->joint;
-  const auto flows = thermal::contact_flows(pile.contacts, pile.joints, outcome.state.temperature, joint.form);
+  const auto temperature = outcome.model->rows.to_nodes(outcome.state.temperature);
+  const auto flows = thermal::contact_flows(pile.contacts, pile.joints, temperature, joint.form);
   const auto areas = contact::overlap_areas(pile.mesh, scene.contact->tolerance);
   Json joints = Json::array();
   for (const auto& report : thermal::joint_reports(pile.mesh, scene.materials, pile.contacts, joint, flows)) {
@@ -96,6 +97,7 @@ Json joints_json(const HeatOutcome<dim>& outcome, const Scene& scene) {
 
 template <int dim>
 Json probes_json(const HeatOutcome<dim>& outcome) {
+  const auto temperature = outcome.model->rows.to_nodes(outcome.state.temperature);
   Json probes = Json::object();
   for (const auto& probe : outcome.pile.probes) {
     const mesh::Block& block = outcome.pile.mesh.blocks[probe.block];
@@ -103,10 +105,19 @@ Json probes_json(const HeatOutcome<dim>& outcome) {
                           {"body", outcome.pile.mesh.bodies[block.body].name},
                           {"point", std::vector<double>(probe.point.begin(), probe.point.end())},
                           {"moved", probe.moved},
-                          {"temperature", output::value_at(probe, outcome.pile.mesh, outcome.state.temperature)}};
+                          {"temperature", output::value_at(probe, outcome.pile.mesh, temperature)}};
     if (const auto exact = output::exact_at(probe, outcome.state.time)) probes[probe.name]["exact"] = *exact;
   }
   return probes;
+}
+
+Json lumped_json(const thermal::HeatModel& model, const thermal::LumpingError& error) {
+  const thermal::BiotRange biot = thermal::biot_range(*model.lumped);
+  return {{"count", model.lumped->all().size()},
+          {"least_biot", biot.least},
+          {"largest_biot", biot.largest},
+          {"temperatures", model.capacity.size()},
+          {"error", error.largest}};
 }
 
 template <int dim>
@@ -182,6 +193,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                                           {"pairs", principle.pairs},
                                           {"reversed", principle.reversed},
                                           {"largest", principle.largest}};
+  if (outcome.model->lumped) summary["heat"]["lumped_blocks"] = lumped_json(*outcome.model, state.lumping);
   if (const auto beyond = thermal::overshoot(*outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
   if (outcome.space_error) {
     summary["heat"]["space_error"]["largest"] = outcome.space_error->largest;

@@ -99,6 +99,21 @@ Keys initial_keys() {
   };
 }
 
+Keys block_keys() {
+  const auto word_row = [](const char* path, const char* meaning) {
+    return row(path, word, meaning).words({"meshed", "lumped", "auto"});
+  };
+  return {
+      row("heat.blocks", section, "Whether a block has a temperature per node or only one.").otherwise("all are meshed"),
+      word_row("heat.blocks.model", "A temperature per node, one, or one where the Biot number is small.").fallback("meshed"),
+      row("heat.blocks.largest_biot", quantity, "The Biot number below which auto takes one temperature.", q::number,
+          not_negative)
+          .fallback(fmt::format("{}", thermal::BlockOptions{}.largest_biot)),
+      row("heat.blocks.bodies", names, "Bodies whose blocks differ.").fallback("{}"),
+      word_row("heat.blocks.bodies.*", "As heat.blocks.model, for the blocks of this body."),
+  };
+}
+
 Keys time_keys() {
   const thermal::TimeOptions by_default;
   const Condition in_time{.key = "heat.steady", .word = "true", .absent = true};
@@ -139,6 +154,7 @@ Keys heat_keys() {
   Keys keys{row("heat", section, "Heat is conducted in the blocks and between them, once they lie.")};
   append(keys, initial_keys());
   append(keys, boundary_keys());
+  append(keys, block_keys());
   append(keys, effective_keys());
   append(keys, time_keys());
   return keys;

@@ -81,6 +81,24 @@ bool has_axes(const Material& material) {
   return material.conductivity && !material.conductivity->isotropic();
 }
 
+Model lumped(const Scene& scene) {
+  const thermal::BlockOptions& blocks = scene.heat->blocks;
+  const std::string name = "lumped blocks";
+  if (blocks.all_meshed()) return {name, false, "heat.blocks lumps none: every node has a temperature"};
+  std::vector<std::string> lumped, chosen;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const thermal::BlockModel model = blocks.of(BodyId{i});
+    if (model == thermal::BlockModel::lumped) lumped.push_back(scene.bodies[i].name);
+    if (model == thermal::BlockModel::automatic) chosen.push_back(scene.bodies[i].name);
+  }
+  std::vector<std::string> parts;
+  if (!lumped.empty()) parts.push_back(fmt::format("every block of {}", fmt::join(lumped, ", ")));
+  if (!chosen.empty()) {
+    parts.push_back(fmt::format("those of {} with a Biot number below {:g}", fmt::join(chosen, ", "), blocks.largest_biot));
+  }
+  return {name, true, fmt::format("heat.blocks gives one temperature to {}", fmt::join(parts, ", and to "))};
+}
+
 Model start(const Scene& scene) {
   if (!scene.initial_field) return {"earlier run", false, "heat.initial names temperatures, no earlier run"};
   return {"earlier run", true, fmt::format("heat.initial takes the temperatures of {}", scene.initial_field->from.string())};
@@ -106,6 +124,7 @@ std::vector<Model> heat_models(const Scene& scene) {
                  "every conductivity and heat capacity is a number"),
       because_of("principal axes", "conductivity differs along the axes of", materials_with(scene, has_axes),
                  "every conductivity is the same in all directions"),
+      lumped(scene),
       start(scene)};
   if (scene.effective_window) {
     models.push_back(

@@ -166,6 +166,36 @@ void check_times(const thermal::HeatOptions& options, Problems& problems) {
   for (const thermal::Source& source : options.sources) check(source.power);
 }
 
+thermal::BlockModel read_block_model(const std::string& word) {
+  using enum thermal::BlockModel;
+  if (word == "lumped") return lumped;
+  return word == "auto" ? automatic : meshed;
+}
+
+thermal::BlockOptions read_blocks(const Checked& heat, const Names& names, Problems& problems) {
+  thermal::BlockOptions options;
+  const Checked* blocks = heat.find("blocks");
+  if (blocks == nullptr) return options;
+  options.where = blocks->where;
+  options.model = read_block_model(blocks->at("model").text);
+  options.largest_biot = blocks->at("largest_biot").number();
+  for (const CheckedEntry& entry : blocks->at("bodies").entries) {
+    const auto place = std::find(names.bodies.begin(), names.bodies.end(), entry.name);
+    if (place == names.bodies.end()) {
+      problems.push_back(
+          {entry.where, entry.value.path, "unknown", "must be a body of this scene", suggest(entry.name, names.bodies)});
+      continue;
+    }
+    const BodyId body{static_cast<std::size_t>(place - names.bodies.begin())};
+    options.of_body[body] = read_block_model(entry.value.text);
+  }
+  if (!options.all_meshed() && heat.find("effective_conductivity") != nullptr) {
+    problems.push_back(blocks->problem("lumped or auto", "must be meshed for heat.effective_conductivity",
+                                       "The flux inside the blocks is what it measures: take heat.blocks out"));
+  }
+  return options;
+}
+
 thermal::Integrator read_integrator(const std::string& word) {
   using enum thermal::Integrator;
   if (word == "implicit") return implicit;
@@ -219,6 +249,7 @@ thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
     options.sources.push_back(read_source(part, names, dimension, problems));
   }
   options.joint = read_joint(scene, problems);
+  options.blocks = read_blocks(heat, names, problems);
   options.time = read_time(heat, scene.at("output"));
   check_times(options, problems);
   return options;

@@ -1,0 +1,223 @@
+// What lumping does to a model: the projection, the choice, and what is refused.
+#include "thermal/lumped_blocks.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/base/check.h"
+#include "tests/thermal/lumped_cases.h"
+#include "thermal/drive.h"
+#include "thermal/inner_resistance.h"
+#include "thermal/steady_state.h"
+
+namespace scree::thermal {
+namespace {
+
+using test::row_of_cubes;
+using testing::HasSubstr;
+
+template <class Dim>
+class LumpedBlocksIn : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(LumpedBlocksIn, Dimensions);
+
+// P: a column per row of the lumped model.
+Eigen::MatrixXd projection(const HeatModel& model, Eigen::Index nodes) {
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(nodes, model.capacity.size());
+  for (Eigen::Index node = 0; node < nodes; ++node) p(node, model.rows[NodeId(static_cast<std::size_t>(node))].value()) = 1;
+  return p;
+}
+
+TYPED_TEST(LumpedBlocksIn, AreTheProjectionOfTheMeshedModel) {
+  constexpr int dim = TypeParam::value;
+  for (const JointForm form : {JointForm::consistent, JointForm::literal}) {
+    auto row = row_of_cubes<dim>(4, 2);
+    row.options.joint.form = form;
+    row.options.boundaries.push_back(test::convection(BodyId{1}, 5, test::formula("300 + 20*x + 3*y")));
+    row.options.sources.push_back({test::on(BodyId{2}), test::formula("1000*(x + y)"), "source", {}});
+    const HeatModel meshed = row.model();
+    row.options.blocks.of_body = {{BodyId{1}, BlockModel::lumped}, {BodyId{2}, BlockModel::lumped}};
+    const HeatModel model = row.model();
+    const Eigen::MatrixXd p = projection(model, meshed.capacity.size());
+    const Eigen::MatrixXd conductance = p.transpose() * Eigen::MatrixXd(meshed.conductance) * p;
+    EXPECT_LT((Eigen::MatrixXd(model.conductance) - conductance).norm(), 1e-13 * conductance.norm());
+    EXPECT_LT((model.capacity - p.transpose() * meshed.capacity).norm(), 1e-13 * meshed.capacity.norm());
+    const Eigen::VectorXd warm = Eigen::VectorXd::LinSpaced(model.capacity.size(), 300, 400);
+    Drives drives(model), meshed_drives(meshed);
+    const Eigen::VectorXd heating = HeatBalance(model).heating(warm, drives.at(0));
+    const Eigen::VectorXd expected = p.transpose() * HeatBalance(meshed).heating(p * warm, meshed_drives.at(0));
+    EXPECT_LT((heating - expected).norm(), 1e-11 * expected.norm());
+    const SparseMatrix transposed = model.conductance.transpose();
+    EXPECT_EQ((model.conductance - transposed).norm(), 0);
+  }
+}
+
+TYPED_TEST(LumpedBlocksIn, HaveOneRowEachAndNoEntriesOfTheirInside) {
+  constexpr int dim = TypeParam::value;
+  auto row = row_of_cubes<dim>(5, 4);
+  row.options.blocks.model = BlockModel::lumped;
+  const HeatModel model = row.model();
+  EXPECT_EQ(model.capacity.size(), 5);
+  EXPECT_EQ(model.conductance.nonZeros(), 5 + 2 * 4);
+  EXPECT_EQ(model.lumped->all().size(), 5u);
+  EXPECT_EQ(model.rows.to_nodes(model.initial).size(), static_cast<Eigen::Index>(row.mesh.nodes.size()));
+}
+
+TYPED_TEST(LumpedBlocksIn, StartAtTheMeanOfTheirTemperaturesAndSayHowFarTheyWereFromIt) {
+  constexpr int dim = TypeParam::value;
+  auto row = row_of_cubes<dim>(1, 4);
+  row.options.initial_temperature = Table<BodyId, Function>(1, test::formula("300 + 100*x"));
+  row.options.blocks.model = BlockModel::lumped;
+  const HeatModel model = row.model();
+  EXPECT_NEAR(model.initial[0], 300 + 50 * test::side, 1e-9);
+  EXPECT_NEAR(model.lumped->all()[0].start_spread, 50 * test::side, 1e-9);
+  row.options.initial_temperature = Table<BodyId, Function>(1, 0.1 + 0.2);
+  EXPECT_EQ(row.model().initial[0], 0.1 + 0.2);
+  EXPECT_EQ(row.model().lumped->all()[0].start_spread, 0);
+}
+
+TYPED_TEST(LumpedBlocksIn, AreChosenByTheirBiotNumber) {
+  constexpr int dim = TypeParam::value;
+  auto row = row_of_cubes<dim>(3, 2, test::conductance_for_biot(0.001));
+  row.options.boundaries.push_back(test::convection(BodyId{2}, test::conductance_for_biot(1), 300.0));
+  row.options.blocks.model = BlockModel::automatic;
+  row.options.blocks.largest_biot = 0.02;
+  const HeatModel model = row.model();
+  ASSERT_TRUE(model.lumped);
+  EXPECT_TRUE(model.lumped->contain(BlockId{0}));
+  EXPECT_TRUE(model.lumped->contain(BlockId{1}));
+  EXPECT_FALSE(model.lumped->contain(BlockId{2}));
+  // Heated evenly at one end a block of length L has a place at L/3k from its mean; semi-springs sit in the corners.
+  const LumpedBlock& end = model.lumped->all()[0];
+  const double area = std::pow(test::side, dim - 1);
+  EXPECT_GE(end.bulk, test::side / (3 * 4.0 * area));
+  EXPECT_LE(end.bulk, 1.2 * test::side / (3 * 4.0 * area));
+  const double joint = test::conductance_for_biot(0.001) * area;
+  EXPECT_NEAR(end.biot, joint * (end.bulk + end.constriction), 1e-12);
+}
+
+TYPED_TEST(LumpedBlocksIn, WithALimitOfZeroAreNone) {
+  constexpr int dim = TypeParam::value;
+  auto row = row_of_cubes<dim>(3, 2);
+  const HeatModel meshed = row.model();
+  row.options.blocks.model = BlockModel::automatic;
+  row.options.blocks.largest_biot = 0;
+  const HeatModel model = row.model();
+  EXPECT_FALSE(model.lumped);
+  EXPECT_EQ((model.conductance - meshed.conductance).norm(), 0);
+  const HeatState a = test::heated(meshed), b = test::heated(model);
+  EXPECT_EQ(a.temperature, b.temperature);
+  EXPECT_EQ(a.steps, b.steps);
+}
+
+TYPED_TEST(LumpedBlocksIn, AreHeldAsAWholeOrRefused) {
+  constexpr int dim = TypeParam::value;
+  auto row = row_of_cubes<dim>(2, 2);
+  row.options.blocks.model = BlockModel::lumped;
+  Boundary whole = test::hold(BodyId{0}, 0, 350, "hot");
+  whole.region.within.reset();
+  row.options.boundaries = {whole};
+  const HeatModel model = row.model();
+  EXPECT_EQ(model.fixed_nodes, std::vector<NodeId>{NodeId{0}});
+  EXPECT_LT(test::heated(model).ledger.relative_residual(), 1e-12);
+
+  row.options.boundaries = {test::hold(BodyId{0}, 0, 350, "hot")};
+  row.options.boundaries[0].where = {"s.yaml", 7, 5};
+  try {
+    static_cast<void>(row.model());
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.yaml:7:5: heat.blocks is a lumped block of body0, of which \"hot\" holds"));
+    EXPECT_THAT(error.what(), HasSubstr("Give it `meshed` in heat.blocks.bodies"));
+  }
+  row.options.blocks.model = BlockModel::automatic;
+  row.options.blocks.largest_biot = 1e9;
+  const HeatModel mixed = row.model();
+  EXPECT_FALSE(mixed.lumped->contain(BlockId{0}));
+  EXPECT_TRUE(mixed.lumped->contain(BlockId{1}));
+}
+
+TEST(LumpedBlocks, WithPerfectJointsAreRefusedOrMeshed) {
+  auto row = row_of_cubes<2>(3, 2);
+  row.options.joint.rules.push_back({std::array{BodyId{0}, BodyId{1}}, PerfectJoint{}, std::nullopt, {}});
+  contact::ContactOptions search;
+  row.contacts = contact::find_contacts(row.mesh, contact_search(row.options.joint, row.mesh.bodies, search));
+  row.options.blocks.model = BlockModel::automatic;
+  row.options.blocks.largest_biot = 1e9;
+  const HeatModel mixed = row.model();
+  EXPECT_FALSE(mixed.lumped->contain(BlockId{0}));
+  EXPECT_FALSE(mixed.lumped->contain(BlockId{1}));
+  EXPECT_TRUE(mixed.lumped->contain(BlockId{2}));
+  EXPECT_LT(test::heated(mixed).ledger.relative_residual(), 1e-12);
+  row.options.blocks.model = BlockModel::lumped;
+  row.options.blocks.where = {"s.yaml", 3, 4};
+  try {
+    static_cast<void>(row.model());
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.yaml:3:4: heat.blocks is a lumped block of body0 with a perfect joint"));
+    EXPECT_THAT(error.what(), HasSubstr("body1 with a perfect joint"));
+  }
+}
+
+TEST(LumpedBlocks, ResumeToTheBitWithTheirErrorEstimate) {
+  auto row = row_of_cubes<2>(4, 2);
+  row.options.blocks.model = BlockModel::lumped;
+  const HeatModel model = row.model();
+  TimeOptions options;
+  options.until = 3600;
+  options.output_every = 600;
+  HeatRun whole(model, options), first(model, options);
+  whole.advance_to(3600);
+  first.advance_to(1800);
+  HeatRun second(model, options, first.state());
+  second.advance_to(3600);
+  EXPECT_GT(whole.state().lumping.largest, 0);
+  EXPECT_EQ(second.state().temperature, whole.state().temperature);
+  EXPECT_EQ(second.state().lumping.carried, whole.state().lumping.carried);
+  EXPECT_EQ(second.state().lumping.largest, whole.state().lumping.largest);
+}
+
+TEST(LumpedBlocks, MakeAMeshedStateUnfit) {
+  auto row = row_of_cubes<2>(1, 1);
+  TimeOptions options;
+  options.until = 1;
+  HeatState state = HeatRun(row.model(), options).state();
+  row.options.blocks.model = BlockModel::lumped;
+  EXPECT_THROW(HeatRun(row.model(), options, state), InputError);
+}
+
+TEST(InnerResistance, OfACubeHeatedAllOverIsExact) {
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(0.3, 2, 3, 0.3)});
+  const InnerResistance<3> inside(mesh, mesh.blocks[BlockId{0}], 5 * Tensor<3>::Identity());
+  EXPECT_NEAR(inside.volume(), 0.027, 1e-15);
+  PatchMoments<3> all_over;
+  all_over.weight = 2;
+  all_over.second = 2 * 5.0 / 36 * 0.09 * Tensor<3>::Identity();  // mean of x^2 over the surface
+  EXPECT_NEAR(inside.bulk(all_over), 1 / (12 * 5 * 0.3), 1e-12);
+}
+
+TEST(InnerResistance, OfAnAnisotropicBarIsThatAlongIt) {
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(0.5, 5, 2, 0.1)});
+  const InnerResistance<3> inside(mesh, mesh.blocks[BlockId{0}], Eigen::Vector3d(2, 7, 9).asDiagonal());
+  PatchMoments<3> end;
+  // A face's corners have thrice the second moment of the face: points at 1/sqrt 3 of them have the face's own.
+  for (const double y : {-1.0, 1.0}) {
+    for (const double z : {-1.0, 1.0}) end.add(Point<3>(0.25, 0.05 * y / std::sqrt(3), 0.05 * z / std::sqrt(3)), 0.3);
+  }
+  EXPECT_NEAR(inside.bulk(end), 0.5 / (3 * 2 * 0.01), 1e-10);
+}
+
+TEST(InnerResistance, OfASmallPatchIsThatOfADiscOnAHalfSpace) {
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(1, 1, 1, 1)});
+  const InnerResistance<3> inside(mesh, mesh.blocks[BlockId{0}], 3 * Tensor<3>::Identity());
+  const double radius = 1e-6;
+  EXPECT_NEAR(inside.constriction(std::numbers::pi * radius * radius) * 4 * 3 * radius, 1, 1e-5);
+  EXPECT_EQ(inside.constriction(100), 0);
+}
+
+}  // namespace
+}  // namespace scree::thermal

@@ -1,0 +1,266 @@
+#include "thermal/choose_lumped.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "thermal/contact_conduction.h"
+#include "thermal/exchange.h"
+#include "thermal/inner_resistance.h"
+#include "thermal/problems.h"
+
+namespace scree::thermal {
+
+namespace {
+
+constexpr const char* way_out = "Give it `meshed` in heat.blocks.bodies";
+
+// A point where heat may enter a block. Patches of a block are its neighbours, then the model's exchanges, then its loads.
+struct Entry {
+  BlockId block;
+  std::uint32_t patch;
+  std::uint32_t item;  // contact, or position among the nodes of an exchange or a load
+  bool owner;          // of the contact
+
+  friend auto operator<=>(const Entry&, const Entry&) = default;
+};
+
+struct Held {
+  std::size_t nodes = 0;
+  int hold = -1;
+  bool alike = true;  // by one boundary only
+};
+
+template <int dim>
+class Chooser {
+ public:
+  Chooser(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints, const HeatOptions& options,
+          const HeatModel& model)
+      : mesh_(mesh),
+        materials_(materials),
+        contacts_(contacts.contacts),
+        joints_(joints),
+        options_(options),
+        model_(model),
+        start_(Drives(model).at(0)),
+        wanted_(mesh.blocks.size()),
+        held_(mesh.blocks.size()) {
+    for (const BlockId b : mesh.blocks.ids()) wanted_[b] = options.blocks.of(mesh.blocks[b].body);
+  }
+
+  std::optional<LumpedBlocks> choose() {
+    look_at_held();
+    look_at_perfect();
+    if (!problems_.empty()) throw InputError(problems_);
+    std::vector<LumpedBlock> chosen;
+    const std::vector<Entry> entries = entries_of_candidates();
+    auto first = entries.begin();
+    for (const BlockId b : mesh_.blocks.ids()) {
+      const auto last = std::find_if(first, entries.end(), [b](const Entry& entry) { return entry.block != b; });
+      if (wanted_[b] != BlockModel::meshed) {
+        const LumpedBlock block = described(b, {first, last});
+        if (wanted_[b] == BlockModel::lumped || block.biot < options_.blocks.largest_biot) chosen.push_back(block);
+      }
+      first = last;
+    }
+    if (chosen.empty()) return std::nullopt;
+    return LumpedBlocks(std::move(chosen), mesh_.blocks.size());
+  }
+
+ private:
+  using Entries = std::ranges::subrange<std::vector<Entry>::const_iterator>;
+
+  [[nodiscard]] const std::string& body_name(BlockId block) const { return mesh_.bodies[mesh_.blocks[block].body].name; }
+  [[nodiscard]] bool candidate(BlockId block) const { return wanted_[block] != BlockModel::meshed && held_[block].nodes == 0; }
+
+  void refuse(const std::string& value, const std::string& rule, const std::string& suggestion, const SourceLocation& where) {
+    if (!refused_.insert(value + rule).second) return;  // once for all blocks of a body
+    problems_.push_back(problem("heat.blocks", value, rule, suggestion));
+    problems_.back().where = where;
+  }
+
+  void look_at_held() {
+    for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+      Held& held = held_[model_.blocks[model_.fixed_nodes[i]]];
+      held.alike = held.alike && (held.nodes == 0 || held.hold == model_.fixed_hold[i]);
+      held.hold = model_.fixed_hold[i];
+      ++held.nodes;
+    }
+    for (const BlockId b : mesh_.blocks.ids()) {
+      const Held& held = held_[b];
+      if (held.nodes == 0 || wanted_[b] == BlockModel::meshed) continue;
+      if (wanted_[b] == BlockModel::automatic) {
+        wanted_[b] = BlockModel::meshed;
+        continue;
+      }
+      const Hold& by = model_.holds[held.hold];
+      if (held.nodes == mesh_.blocks[b].nodes.size() && held.alike && !by.temperature.varies_in_place()) continue;
+      refuse(fmt::format("a lumped block of {}, of which \"{}\" holds {} of {} nodes", body_name(b), by.name, held.nodes,
+                         mesh_.blocks[b].nodes.size()),
+             "must be held as a whole, at one temperature, or not at all",
+             fmt::format("{}, or hold all of the body, or give it convection instead", way_out), where_of(by.name));
+    }
+  }
+
+  [[nodiscard]] SourceLocation where_of(const std::string& boundary) const {
+    for (const Boundary& candidate : options_.boundaries) {
+      if (candidate.name == boundary) return candidate.where;
+    }
+    return options_.blocks.where;
+  }
+
+  void look_at_perfect() {
+    for (const PerfectTerm<dim>& term : joints_.perfect) {
+      for (const BlockId b : {contacts_[term.contact].owner, contacts_[term.contact].target}) {
+        if (wanted_[b] == BlockModel::automatic) wanted_[b] = BlockModel::meshed;
+        if (wanted_[b] != BlockModel::lumped) continue;
+        refuse(fmt::format("a lumped block of {} with a perfect joint", body_name(b)),
+               "must have joints that resist: a lumped block stands for one whose inside does not, beside its joints",
+               fmt::format("{}, or give its joints a conductance", way_out), options_.blocks.where);
+      }
+    }
+  }
+
+  void add_shares(const NodeShares& on, std::size_t patch, std::vector<Entry>& entries) const {
+    for (std::size_t i = 0; i < on.nodes.size(); ++i) {
+      const BlockId block = model_.blocks[on.nodes[i]];
+      if (candidate(block)) entries.push_back({block, static_cast<std::uint32_t>(patch), static_cast<std::uint32_t>(i), false});
+    }
+  }
+
+  // Sorted by block and patch.
+  [[nodiscard]] std::vector<Entry> entries_of_candidates() const {
+    std::vector<Entry> entries;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const auto [owner, target] = std::pair(contacts_[c].owner, contacts_[c].target);
+      const auto item = static_cast<std::uint32_t>(c);
+      if (joints_.conductances[c] == 0) continue;
+      if (candidate(owner)) entries.push_back({owner, static_cast<std::uint32_t>(target.index()), item, true});
+      if (candidate(target)) entries.push_back({target, static_cast<std::uint32_t>(owner.index()), item, false});
+    }
+    std::size_t patch = mesh_.blocks.size();
+    for (const Exchange& exchange : model_.exchanges) add_shares(exchange.on, patch++, entries);
+    for (const Load& load : model_.loads) add_shares(load.on, patch++, entries);
+    std::sort(entries.begin(), entries.end());
+    return entries;
+  }
+
+  // A block's patch as its points are counted.
+  struct Patch {
+    PatchMoments<dim> moments;
+    double conductance = 0;  // [W/K]
+    double area = 0;         // in which it touches; 0 where nothing is known of it [m2]
+  };
+
+  [[nodiscard]] LumpedBlock described(BlockId b, const Entries& entries) const {
+    LumpedBlock block;
+    block.block = b;
+    if (entries.empty()) return block;
+    const mesh::Block& of = mesh_.blocks[b];
+    const Conductivity& conductivity = *materials_[mesh_.bodies[of.body].material].conductivity;
+    const InnerResistance<dim> inside(mesh_, of,
+                                      conductivity.value(reference_temperature) * conductivity_ratios<dim>(conductivity, of));
+    double conductance = 0;
+    double constricted = 0;
+    for (auto first = entries.begin(); first != entries.end();) {
+      const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
+      const Patch patch = patch_of({first, last}, inside.centroid());
+      const double constriction = patch.area > 0 ? inside.constriction(patch.area) : 0;
+      block.bulk = std::max(block.bulk, inside.bulk(patch.moments));
+      block.constriction = std::max(block.constriction, constriction);
+      conductance += patch.conductance;
+      constricted = std::max(constricted, patch.conductance * constriction);
+      first = last;
+    }
+    block.biot = block.bulk * conductance + constricted;
+    return block;
+  }
+
+  [[nodiscard]] Patch patch_of(const Entries& entries, const Point<dim>& centroid) const {
+    const std::size_t patch = entries.begin()->patch;
+    if (patch < mesh_.blocks.size()) return contact_patch(entries, centroid);
+    const std::size_t exchange = patch - mesh_.blocks.size();
+    return exchange < model_.exchanges.size() ? exchange_patch(exchange, entries, centroid)
+                                              : load_patch(exchange - model_.exchanges.size(), entries, centroid);
+  }
+
+  // Two faces that lie on each other are found from both sides; where only edges meet, theirs is the area.
+  [[nodiscard]] Patch contact_patch(const Entries& entries, const Point<dim>& centroid) const {
+    Patch patch;
+    double edges = 0;
+    for (const Entry& entry : entries) {
+      const contact::Contact<dim>& contact = contacts_[entry.item];
+      const contact::Stencil<dim>& stencil = entry.owner ? contact.on_owner : contact.on_target;
+      Point<dim> point = -centroid;
+      for (int i = 0; i < dim; ++i) {
+        if (stencil.weights[i] != 0) point += stencil.weights[i] * mesh_.nodes[stencil.nodes[i]];
+      }
+      patch.moments.add(point, joints_.conductances[entry.item]);
+      patch.conductance += joints_.conductances[entry.item];
+      if (contact.kind == contact::Kind::overlap) patch.area += contact.area;
+      if (contact.kind == contact::Kind::point_face) patch.area += 0.5 * contact.area;
+      if (contact.kind == contact::Kind::edge_edge) edges += 0.5 * contact.area;
+    }
+    if (patch.area == 0) patch.area = edges;
+    return patch;
+  }
+
+  // Radiation is as good as convection of its slope at the hotter of the two.
+  [[nodiscard]] Patch exchange_patch(std::size_t e, const Entries& entries, const Point<dim>& centroid) const {
+    const Exchange& exchange = model_.exchanges[e];
+    const ExchangeRates& rates = start_.exchanges[e];
+    Patch patch;
+    for (const Entry& entry : entries) {
+      const NodeId node = exchange.on.nodes[entry.item];
+      const double hotter = std::max(model_.initial[node.value()], rates.surroundings[entry.item]);
+      const double conductance = exchange_slope(exchange.law, rates, entry.item, hotter);
+      patch.moments.add(mesh_.nodes[node] - centroid, conductance);
+      patch.conductance += conductance;
+      patch.area += exchange.on.shares[entry.item];
+    }
+    return patch;
+  }
+
+  // Of no conductance: it enters the error, not the Biot number.
+  [[nodiscard]] Patch load_patch(std::size_t l, const Entries& entries, const Point<dim>& centroid) const {
+    const NodeShares& on = model_.loads[l].on;
+    Patch patch;
+    for (const Entry& entry : entries) {
+      patch.moments.add(mesh_.nodes[on.nodes[entry.item]] - centroid, on.shares[entry.item]);
+    }
+    return patch;
+  }
+
+  const mesh::BlockMesh<dim>& mesh_;
+  const Table<MaterialId, Material>& materials_;
+  const std::vector<contact::Contact<dim>>& contacts_;
+  const JointConduction<dim>& joints_;
+  const HeatOptions& options_;
+  const HeatModel& model_;
+  const Drive start_;  // what acts from outside then
+  Table<BlockId, BlockModel> wanted_;
+  Table<BlockId, Held> held_;
+  std::set<std::string> refused_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+template <int dim>
+std::optional<LumpedBlocks> choose_lumped(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
+                                          const HeatOptions& options, const HeatModel& model) {
+  if (options.blocks.all_meshed()) return std::nullopt;
+  return Chooser<dim>(mesh, materials, contacts, joints, options, model).choose();
+}
+
+template std::optional<LumpedBlocks> choose_lumped<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
+                                                      const contact::ContactSet<2>&, const JointConduction<2>&,
+                                                      const HeatOptions&, const HeatModel&);
+template std::optional<LumpedBlocks> choose_lumped<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
+                                                      const contact::ContactSet<3>&, const JointConduction<3>&,
+                                                      const HeatOptions&, const HeatModel&);
+
+}  // namespace scree::thermal

@@ -1,0 +1,82 @@
+#include "thermal/inner_resistance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace scree::thermal {
+
+namespace {
+
+// Symmetric X with X A + A X = right, A symmetric and positive definite.
+template <int dim>
+Tensor<dim> lyapunov(const Tensor<dim>& a, const Tensor<dim>& right) {
+  const Eigen::SelfAdjointEigenSolver<Tensor<dim>> eigen(a);
+  Tensor<dim> x = eigen.eigenvectors().transpose() * right * eigen.eigenvectors();
+  for (int i = 0; i < dim; ++i) {
+    for (int j = 0; j < dim; ++j) x(i, j) /= eigen.eigenvalues()[i] + eigen.eigenvalues()[j];
+  }
+  return eigen.eigenvectors() * x * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+template <int dim>
+InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block,
+                                      const Tensor<dim>& conductivity)
+    : mesh_(mesh), block_(block), conductivity_(conductivity) {
+  for (const ElementId e : block.elements) {
+    const double volume = mesh::element_volume(mesh, e);
+    for (const NodeId node : mesh.elements[e]) centroid_ += volume / (dim + 1) * mesh.nodes[node];
+    volume_ += volume;
+  }
+  centroid_ /= volume_;
+  for (const ElementId e : block.elements) {
+    const double share = mesh::element_volume(mesh, e) / ((dim + 1) * (dim + 2));
+    Point<dim> sum = Point<dim>::Zero();
+    for (const NodeId node : mesh.elements[e]) {
+      const Point<dim> corner = mesh.nodes[node] - centroid_;
+      moments_ += share * corner * corner.transpose();
+      sum += corner;
+    }
+    moments_ += share * sum * sum.transpose();
+  }
+}
+
+template <int dim>
+double InnerResistance<dim>::bulk(const PatchMoments<dim>& patch) const {
+  if (patch.weight == 0) return 0;
+  const Point<dim> slope = conductivity_.llt().solve(patch.first / patch.weight) / volume_;
+  const Tensor<dim> root = conductivity_.llt().matrixL();
+  const Tensor<dim> inverse = root.inverse();
+  const Tensor<dim> right = 0.5 * (patch.second / patch.weight - moments_ / volume_);
+  const Tensor<dim> scaled = lyapunov<dim>(inverse * moments_ * inverse.transpose(), inverse * right * inverse.transpose());
+  const Tensor<dim> bend = inverse.transpose() * scaled * inverse;
+  const double mean = (bend * moments_).trace() / volume_;
+  double largest = 0;
+  for (const NodeId node : block_.nodes) {
+    const Point<dim> x = mesh_.nodes[node] - centroid_;
+    largest = std::max(largest, std::abs(slope.dot(x) + x.dot(bend * x) - mean));
+  }
+  return largest;
+}
+
+template <int dim>
+double InnerResistance<dim>::constriction(double area) const {
+  using std::numbers::pi;
+  const double lowest = Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity_, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double radius = dim == 3 ? std::cbrt(3 * volume_ / (4 * pi)) : std::sqrt(volume_ / pi);  // of the ball
+  const double surface = dim == 3 ? 4 * pi * radius * radius : 2 * pi * radius;
+  if (area >= surface) return 0;
+  if constexpr (dim == 2) return std::log(1 / std::sin(0.5 * pi * area / surface)) / (pi * lowest);
+  const double of_surface = std::sqrt(area / surface);  // r/b
+  return std::pow(1 - of_surface, 1.5) / (4 * lowest * std::sqrt(area / pi));
+}
+
+template class InnerResistance<2>;
+template class InnerResistance<3>;
+
+}  // namespace scree::thermal

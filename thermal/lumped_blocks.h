@@ -1,0 +1,54 @@
+// Blocks of one temperature each: what the model keeps of them. README, "Lumped blocks".
+//
+// T = P T' gives every node of a lumped block its one unknown, so C' = P^T C P, K' = P^T K P and Q' = P^T Q: a block's own
+// conduction falls out, heat is conserved as before, and a mesh with lumped blocks is a model like any other.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "engine/base/ids.h"
+
+namespace scree::thermal {
+
+struct LumpedBlock {
+  BlockId block;
+  NodeId row;               // of the heat model
+  double biot = 0;          // sum of the conductances through its surface times what its inside resists [-]
+  double bulk = 0;          // how far from the mean a unit of heat flow brings a place of it (inner_resistance.h) [K/W]
+  double constriction = 0;  // of its smallest patch [K/W]
+  double start_spread = 0;  // largest distance of a temperature at the start from the block's [K]
+};
+
+class LumpedBlocks {
+ public:
+  LumpedBlocks(std::vector<LumpedBlock> ascending, std::size_t blocks) : blocks_(std::move(ascending)), at_(blocks, -1) {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) at_[blocks_[i].block] = static_cast<int>(i);
+  }
+
+  [[nodiscard]] bool contain(BlockId block) const { return at_[block] >= 0; }
+  // Its position in all(), or -1.
+  [[nodiscard]] int position(BlockId block) const { return at_[block]; }
+
+  [[nodiscard]] const std::vector<LumpedBlock>& all() const { return blocks_; }
+  [[nodiscard]] std::vector<LumpedBlock>& all() { return blocks_; }
+
+ private:
+  std::vector<LumpedBlock> blocks_;
+  Table<BlockId, int> at_;
+};
+
+struct BiotRange {
+  double least = 0;
+  double largest = 0;
+};
+
+// Of the lumped blocks; of the others only auto knows one, and that it is no smaller than its limit.
+inline BiotRange biot_range(const LumpedBlocks& lumped) {
+  const auto [least, largest] = std::minmax_element(lumped.all().begin(), lumped.all().end(),
+                                                    [](const LumpedBlock& a, const LumpedBlock& b) { return a.biot < b.biot; });
+  return {least->biot, largest->biot};
+}
+
+}  // namespace scree::thermal

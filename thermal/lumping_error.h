@@ -1,0 +1,52 @@
+// How wrong temperatures are because blocks are lumped: an estimate in kelvin, while the run goes on.
+//
+// Heat flows q_p [W] through the patches of a lumped block make its inside differ from its one temperature by at most
+//   theta = bulk * sum |q_p| + constriction * max |q_p| (inner_resistance.h)
+// wherever one looks. That also takes from the drop over its joints, so each carries less,
+//   g_p s_p,   s_p = bulk * (all that flows the same way as q_p) + constriction * |q_p|,
+// and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
+//   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
+// which backward Euler steps follow beside the run's own. The estimate is the largest theta plus the largest |e|. In the first
+// instants after a sudden start the inside has not built up theta yet, and the estimate is too large.
+#pragma once
+
+#include "thermal/free_nodes.h"
+#include "thermal/heat_balance.h"
+
+namespace scree::thermal {
+
+// What a run knows of it so far.
+struct LumpingError {
+  Eigen::VectorXd carried;  // e of every row; empty unless blocks are lumped [K]
+  double largest = 0;       // of the estimate, at any time; at first what the means at the start left out [K]
+};
+
+class LumpingEstimate {
+ public:
+  explicit LumpingEstimate(const HeatModel& model);  // refers to it; some of its blocks are lumped
+
+  [[nodiscard]] LumpingError start() const;
+
+  // After a step of `length` [s] to these temperatures; an infinite one leads to the steady state.
+  void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) const;
+
+ private:
+  struct Flows;
+  // Every patch of lumped blocks, each by visit(position of the block, heat into it [W], conductance [W/K], first and past the
+  // last entry of K's column that belong to it); exchanges have no entries.
+  template <class Visit>
+  void for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const;
+  [[nodiscard]] std::vector<Flows> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
+  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& temperature, const Drive& drive,
+                                        const std::vector<Flows>& flows) const;
+  void carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) const;
+
+  const HeatModel& model_;
+  const std::vector<LumpedBlock>& blocks_;
+  HeatBalance balance_;
+  FreeNodes free_;
+  SparseMatrix conductance_;       // between free rows [W/K]
+  SparseMatrix unit_conductance_;  // of U, if there is one
+};
+
+}  // namespace scree::thermal
