@@ -162,20 +162,25 @@ class Chooser {
     const Conductivity& conductivity = *materials_[mesh_.bodies[of.body].material].conductivity;
     const InnerResistance<dim> inside(mesh_, of,
                                       conductivity.value(reference_temperature) * conductivity_ratios<dim>(conductivity, of));
-    double conductance = 0;
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
       const Patch patch = patch_of({first, last}, inside.centroid());
       const double constriction = patch.area > 0 ? inside.constriction(patch.area) : 0;
-      block.bulk = std::max(block.bulk, inside.bulk(patch.moments));
-      block.constriction = std::max(block.constriction, constriction);
-      conductance += patch.conductance;
+      const double bulk = inside.bulk(patch.moments);
+      PatchResistance& largest = of_kind(first->patch, block);
+      largest = {std::max(largest.bulk, bulk), std::max(largest.constriction, constriction)};
+      block.biot += patch.conductance * bulk;
       constricted = std::max(constricted, patch.conductance * constriction);
       first = last;
     }
-    block.biot = block.bulk * conductance + constricted;
+    block.biot += constricted;
     return block;
+  }
+
+  PatchResistance& of_kind(std::size_t patch, LumpedBlock& block) const {
+    if (patch < mesh_.blocks.size()) return block.contact;
+    return patch < mesh_.blocks.size() + model_.exchanges.size() ? block.exchange : block.load;
   }
 
   [[nodiscard]] Patch patch_of(const Entries& entries, const Point<dim>& centroid) const {

@@ -9,8 +9,8 @@ namespace scree::thermal {
 
 // Of a model that has its boundaries, with a row per node of the mesh; nothing if no block is lumped.
 //
-// The Biot number of a block is Bi = R sum(g) + max(g_p c_p): g_p [W/K] the conductances of its patches (all contacts with one
-// other block, or one exchange with surroundings, as it is at the start), R the largest of their bulk resistances, c_p their
+// The Biot number of a block is Bi = sum(g_p R_p) + max(g_p c_p): g_p [W/K] the conductances of its patches (all contacts with
+// one other block, or one exchange with surroundings, as it is at the start), R_p their bulk resistances and c_p their
 // constrictions (inner_resistance.h), at the reference temperature of joints. Of a sphere in convection it is 0.9, of a slab
 // convecting on both sides a third of h (V/A)/k (Incropera and DeWitt, Fundamentals of Heat and Mass Transfer, eq. 5.10), which
 // knows nothing of where heat enters.

@@ -12,13 +12,21 @@
 
 namespace scree::thermal {
 
+// How far from its mean a unit of heat flow brings a place of a block (inner_resistance.h), the largest of its patches of a
+// kind.
+struct PatchResistance {
+  double bulk = 0;          // [K/W]
+  double constriction = 0;  // [K/W]
+};
+
 struct LumpedBlock {
   BlockId block;
-  NodeId row;               // of the heat model
-  double biot = 0;          // sum of the conductances through its surface times what its inside resists [-]
-  double bulk = 0;          // how far from the mean a unit of heat flow brings a place of it (inner_resistance.h) [K/W]
-  double constriction = 0;  // of its smallest patch [K/W]
-  double start_spread = 0;  // largest distance of a temperature at the start from the block's [K]
+  NodeId row;                // of the heat model
+  double biot = 0;           // conductances through its surface times what its inside resists (choose_lumped.h) [-]
+  PatchResistance contact;   // where heat comes through contacts with one other block,
+  PatchResistance exchange;  // from surroundings,
+  PatchResistance load;      // or is applied
+  double start_spread = 0;   // largest distance of a temperature at the start from the block's [K]
 };
 
 class LumpedBlocks {

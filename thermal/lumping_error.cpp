@@ -15,15 +15,25 @@ constexpr double accuracy = 1e-3;  // of e, which is an estimate: two digits wou
 
 }  // namespace
 
-// Through the patches of one block [W].
-struct LumpingEstimate::Flows {
-  double in = 0;
-  double out = 0;
-  double largest = 0;
+struct LumpingEstimate::Patch {
+  std::size_t position = 0;  // of its block among the lumped ones
+  double heat = 0;           // into the block [W]
+  double conductance = 0;    // [W/K]
+  PatchResistance resists;
+  // Of the entries in K's column of the block that belong to it; none for an exchange.
+  int first = 0;
+  int last = 0;
+};
 
-  void add(double heat) {
-    (heat > 0 ? in : out) += std::abs(heat);
-    largest = std::max(largest, std::abs(heat));
+// What flows through one block's patches makes of it.
+struct LumpingEstimate::Flows {
+  double in = 0;           // sum of R |q| of what flows into it [K]
+  double out = 0;          // out of it [K]
+  double constricted = 0;  // max c |q| [K]
+
+  void add(double heat, const PatchResistance& resists) {
+    (heat > 0 ? in : out) += resists.bulk * std::abs(heat);
+    constricted = std::max(constricted, resists.constriction * std::abs(heat));
   }
 };
 
@@ -46,10 +56,7 @@ void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& d
                               LumpingError& error) const {
   const std::vector<Flows> through = flows(temperature, drive);
   double inside = 0;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const Flows& of = through[i];
-    inside = std::max(inside, blocks_[i].bulk * (of.in + of.out) + blocks_[i].constriction * of.largest);
-  }
+  for (const Flows& of : through) inside = std::max(inside, of.in + of.out + of.constricted);
   carry(missing(temperature, drive, through), balance_.linearised(temperature, drive), length, error.carried);
   error.largest = std::max(error.largest, inside + error.carried.lpNorm<Eigen::Infinity>());
 }
@@ -61,39 +68,44 @@ void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const D
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const int row = blocks_[i].row.value();
     const int end = k.outerIndexPtr()[row + 1];
-    for (int first = k.outerIndexPtr()[row], last = first; first < end; first = last) {
-      const BlockId neighbour = model_.blocks[NodeId(static_cast<std::size_t>(k.innerIndexPtr()[first]))];
-      double heat = 0;
-      double conductance = 0;
-      for (; last < end; ++last) {
-        const int other = k.innerIndexPtr()[last];
-        if (model_.blocks[NodeId(static_cast<std::size_t>(other))] != neighbour) break;
+    for (int first = k.outerIndexPtr()[row]; first < end;) {
+      Patch patch{i, 0, 0, blocks_[i].contact, first, first};
+      const BlockId neighbour = block_of(k.innerIndexPtr()[first]);
+      for (; patch.last < end && block_of(k.innerIndexPtr()[patch.last]) == neighbour; ++patch.last) {
+        const int other = k.innerIndexPtr()[patch.last];
         if (other == row) continue;
-        conductance -= k.valuePtr()[last];
-        heat -= k.valuePtr()[last] * (temperature[other] - temperature[row]);
+        patch.conductance -= k.valuePtr()[patch.last];
+        patch.heat -= k.valuePtr()[patch.last] * (temperature[other] - temperature[row]);
       }
-      if (conductance > 0) visit(i, heat, conductance, first, last);
+      if (patch.conductance > 0) visit(patch);
+      first = patch.last;
     }
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
+    const ExchangeRates& rates = drive.exchanges[e];
     for (std::size_t n = 0; n < exchange.on.nodes.size(); ++n) {
       const NodeId row = exchange.on.nodes[n];
       const int position = model_.lumped->position(model_.blocks[row]);
       if (position < 0) continue;
       const auto at = static_cast<Eigen::Index>(n);
-      const ExchangeRates& rates = drive.exchanges[e];
       const double t = temperature[row.value()];
-      visit(static_cast<std::size_t>(position), exchanged_heat(exchange.law, rates, at, t),
-            exchange_slope(exchange.law, rates, at, t), 0, 0);
+      visit(Patch{static_cast<std::size_t>(position), exchanged_heat(exchange.law, rates, at, t),
+                  exchange_slope(exchange.law, rates, at, t), blocks_[static_cast<std::size_t>(position)].exchange, 0, 0});
     }
   }
 }
 
+BlockId LumpingEstimate::block_of(int row) const {
+  return model_.blocks[NodeId(static_cast<std::size_t>(row))];
+}
+
 std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {
   std::vector<Flows> result(blocks_.size());
-  for_each_patch(temperature, drive, [&](std::size_t i, double heat, double, int, int) { result[i].add(heat); });
-  for (std::size_t i = 0; i < blocks_.size(); ++i) result[i].add(drive.load[blocks_[i].row.value()]);
+  for_each_patch(temperature, drive, [&](const Patch& patch) { result[patch.position].add(patch.heat, patch.resists); });
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    result[i].add(drive.load[blocks_[i].row.value()], blocks_[i].load);
+  }
   return result;
 }
 
@@ -102,15 +114,15 @@ Eigen::VectorXd LumpingEstimate::missing(const Eigen::VectorXd& temperature, con
                                          const std::vector<Flows>& flows) const {
   const SparseMatrix& k = model_.conductance;
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
-  for_each_patch(temperature, drive, [&](std::size_t i, double through, double conductance, int first, int last) {
-    const int row = blocks_[i].row.value();
-    const double same_way = through > 0 ? flows[i].in : flows[i].out;
-    const double surface = blocks_[i].bulk * same_way + blocks_[i].constriction * std::abs(through);
-    const double less = std::copysign(conductance * surface, through);
-    heat[row] -= less;
-    for (int entry = first; entry < last; ++entry) {
+  for_each_patch(temperature, drive, [&](const Patch& patch) {
+    const LumpedBlock& block = blocks_[patch.position];
+    const Flows& of_block = flows[patch.position];
+    const double surface = (patch.heat > 0 ? of_block.in : of_block.out) + patch.resists.constriction * std::abs(patch.heat);
+    const double less = std::copysign(patch.conductance * surface, patch.heat);
+    heat[block.row.value()] -= less;
+    for (int entry = patch.first; entry < patch.last; ++entry) {
       const int other = k.innerIndexPtr()[entry];
-      if (other != row) heat[other] -= less * k.valuePtr()[entry] / conductance;  // K_ij < 0
+      if (other != block.row.value()) heat[other] -= less * k.valuePtr()[entry] / patch.conductance;  // K_ij < 0
     }
   });
   return heat;

@@ -1,9 +1,10 @@
 // How wrong temperatures are because blocks are lumped: an estimate in kelvin, while the run goes on.
 //
 // Heat flows q_p [W] through the patches of a lumped block make its inside differ from its one temperature by at most
-//   theta = bulk * sum |q_p| + constriction * max |q_p| (inner_resistance.h)
-// wherever one looks. That also takes from the drop over its joints, so each carries less,
-//   g_p s_p,   s_p = bulk * (all that flows the same way as q_p) + constriction * |q_p|,
+//   theta = sum R |q_p| + max c |q_p|
+// wherever one looks, R the bulk resistance and c the constriction of patches of that kind (inner_resistance.h). That also
+// takes from the drop over its joints, so that each carries less,
+//   g_p s_p,   s_p = (sum of R |q| over all that flows the same way as q_p) + c |q_p|,
 // and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
 //   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
 // which backward Euler steps follow beside the run's own. The estimate is the largest theta plus the largest |e|. In the first
@@ -32,10 +33,11 @@ class LumpingEstimate {
 
  private:
   struct Flows;
-  // Every patch of lumped blocks, each by visit(position of the block, heat into it [W], conductance [W/K], first and past the
-  // last entry of K's column that belong to it); exchanges have no entries.
+  struct Patch;
+  // Every patch of lumped blocks, each by visit(Patch).
   template <class Visit>
   void for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const;
+  [[nodiscard]] BlockId block_of(int row) const;
   [[nodiscard]] std::vector<Flows> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& temperature, const Drive& drive,
                                         const std::vector<Flows>& flows) const;

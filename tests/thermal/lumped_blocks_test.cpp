@@ -93,10 +93,10 @@ TYPED_TEST(LumpedBlocksIn, AreChosenByTheirBiotNumber) {
   // Heated evenly at one end a block of length L has a place at L/3k from its mean; semi-springs sit in the corners.
   const LumpedBlock& end = model.lumped->all()[0];
   const double area = std::pow(test::side, dim - 1);
-  EXPECT_GE(end.bulk, test::side / (3 * 4.0 * area));
-  EXPECT_LE(end.bulk, 1.2 * test::side / (3 * 4.0 * area));
+  EXPECT_GE(end.contact.bulk, test::side / (3 * 4.0 * area));
+  EXPECT_LE(end.contact.bulk, 1.2 * test::side / (3 * 4.0 * area));
   const double joint = test::conductance_for_biot(0.001) * area;
-  EXPECT_NEAR(end.biot, joint * (end.bulk + end.constriction), 1e-12);
+  EXPECT_NEAR(end.biot, joint * (end.contact.bulk + end.contact.constriction), 1e-12);
 }
 
 TYPED_TEST(LumpedBlocksIn, WithALimitOfZeroAreNone) {

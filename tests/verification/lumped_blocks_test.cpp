@@ -134,8 +134,8 @@ TYPED_TEST(LumpedRuns, ApproachTheMeshedRunInTheFirstOrderOfTheBiotNumber) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 1, 0.1);
 }
 
-// The estimate is 1.1 to 6.1 times the true error of these.
-constexpr double most_over = 8;
+// The estimate is 1.1 to 3.0 times the true error of these.
+constexpr double most_over = 4;
 
 TYPED_TEST(LumpedRuns, EstimateTheirErrorAboveTheTrueOne) {
   constexpr int dim = TypeParam::value;
