@@ -5,6 +5,7 @@ Usage: scree_test.py SOURCE_FOLDER CPP_EXAMPLE, with the module's folder in PYTH
 
 import ast
 import gc
+import math
 import pathlib
 import re
 import subprocess
@@ -37,6 +38,18 @@ heat:
   tolerance: 0.1 K
 output: {every: 30 min, probes: {top: {point: [0.1, 0.1, 0.09], reach: 2 cm}}}
 """
+# A cube in a wind.
+CUBE = """
+materials: {steel: {density: 7800, conductivity: 45, specific_heat: 480}}
+bodies: {cube: {box: {size: [0.1, 0.1, 0.1], centre: [0, 0, 0]}, material: steel, mesh_size: 0.05}}
+heat:
+  initial: 300
+  blocks: {model: lumped}
+  boundaries: [{body: cube, convection: {coefficient: 20, surroundings: 400}}]
+  until: 600
+output: {every: 600}
+"""
+
 # A wall between two temperatures, steady: linear.
 WALL = """
 dimension: 2
@@ -130,6 +143,16 @@ class Heatings(unittest.TestCase):
         self.assertEqual(summary["heat"]["probes"]["top"]["temperature"], heating.probes["top"])
         self.assertLess(heating.ledger_residual, 1e-10)
         self.assertLess(heating.time_error, 0.1)
+
+    def test_a_lumped_block_has_one_temperature_at_all_its_nodes(self):
+        scene = scree.Scene.from_text(CUBE)
+        packing = scree.settle(scene)
+        heating = scree.Heating(scene, packing)
+        heating.advance_to(600)
+        exact = 400 - 100 * math.exp(-600 * 6 * 20 / (7800 * 480 * 0.1))
+        numpy.testing.assert_allclose(heating.temperature, numpy.full(len(packing.nodes), exact), atol=0.1)
+        self.assertEqual(numpy.ptp(heating.temperature), 0)
+        self.assertGreater(heating.lumping_error, 0)
 
     def test_a_steady_wall_is_linear(self):
         scene = scree.Scene.from_text(WALL)

@@ -126,6 +126,11 @@ void add_errors(Page& page, const Json& heat) {
   if (heat.contains("space_error")) {
     rows.push_back({"mesh, estimated, largest of an element", figure(number(heat["space_error"], "largest")) + " K", ""});
   }
+  if (heat.contains("lumped_blocks")) {
+    const Json& lumped = heat["lumped_blocks"];
+    rows.push_back({"one temperature in " + figure(number(lumped, "count")) + " blocks, estimated",
+                    figure(number(lumped, "error")) + " K", "Biot numbers up to " + figure(number(lumped, "largest_biot"))});
+  }
   if (heat.contains("exact_error")) {
     rows.push_back({"at the probes, true", figure(number(heat, "exact_error")) + " K", "the exact solution the scene names"});
   }
