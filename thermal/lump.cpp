@@ -124,18 +124,7 @@ void number_properties(const Numbering& numbering, VaryingProperties& varying) {
   if (varying.unit_conductance.rows() > 0) varying.unit_conductance = of_rows(varying.unit_conductance, numbering);
 }
 
-}  // namespace
-
-template <int dim>
-void lump(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
-  const Numbering numbering = number_rows(mesh, *model.lumped);
-  std::vector<MeanTemperature> means;
-  for (LumpedBlock& block : model.lumped->all()) {
-    const mesh::Block& of = mesh.blocks[block.block];
-    means.push_back(mean_temperature(mesh, of, *materials[mesh.bodies[of.body].material].density, model.initial));
-    block.row = numbering.rows[of.nodes[0]];
-    block.start_spread = means.back().spread;
-  }
+void number_fields(const Numbering& numbering, HeatModel& model) {
   Table<NodeId, BlockId> blocks;
   for (const NodeId node : numbering.nodes) blocks.push_back(model.blocks[node]);
   model.blocks = std::move(blocks);
@@ -148,6 +137,21 @@ void lump(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& m
   model.capacity = of_rows(model.capacity, numbering);
   model.conductance = of_rows(model.conductance, numbering);
   if (model.varying) number_properties(numbering, *model.varying);
+}
+
+}  // namespace
+
+template <int dim>
+void lump(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
+  const Numbering numbering = number_rows(mesh, *model.lumped);
+  std::vector<MeanTemperature> means;
+  for (LumpedBlock& block : model.lumped->all()) {
+    const mesh::Block& of = mesh.blocks[block.block];
+    means.push_back(mean_temperature(mesh, of, *materials[mesh.bodies[of.body].material].density, model.initial));
+    block.row = numbering.rows[of.nodes[0]];
+    block.start_spread = means.back().spread;
+  }
+  number_fields(numbering, model);
   number_conditions(numbering, model);
   for (std::size_t i = 0; i < means.size(); ++i) {
     const LumpedBlock& block = model.lumped->all()[i];
