@@ -32,7 +32,8 @@ Eigen::VectorXd extended(const SparseMatrix& matrix, const Eigen::VectorXd& temp
 }  // namespace
 
 FlowNetwork::FlowNetwork(const SparseMatrix* conductance, Sums sums) : conductance_(conductance), sums_(sums) {
-  if (sums == Sums::plain && !empty()) rows_ = RowRuns(*conductance);
+  // A matrix without entries has rows all the same: of lumped blocks that nothing joins.
+  if (sums == Sums::plain && conductance != nullptr) rows_ = RowRuns(*conductance);
 }
 
 Eigen::VectorXd FlowNetwork::leaving(const Eigen::VectorXd& temperature) const {

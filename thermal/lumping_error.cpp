@@ -38,7 +38,7 @@ struct LumpingEstimate::Flows {
 };
 
 LumpingEstimate::LumpingEstimate(const HeatModel& model)
-    : model_(model), blocks_(model.lumped->all()), balance_(model, Sums::plain), free_(model) {
+    : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   conductance_ = free_.block(model.conductance);
   if (model.varying && model.varying->unit_conductance.nonZeros() > 0) {
     unit_conductance_ = free_.block(model.varying->unit_conductance);
