@@ -1,13 +1,16 @@
 // The fall of a scene's blocks by Bullet as it comes and by Scree, one after the other, with what each took and how deep its
 // blocks are in each other at the end.
 //
-//   scree_settle_bench scenes/pile_undamped.yaml SECONDS
+//   scree_settle_bench scenes/pile_undamped.yaml SECONDS [PROGRAM]
+//
+// PROGRAM: only those whose name begins so.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,7 +36,7 @@ void measure(const std::string& name, const std::function<packing::Packing<3>()>
   const packing::Penetration depth = packing::measure_penetration(placed, 0.01 * edge);
   double top = 0;
   for (const Point<3>& node : placed.nodes) top = std::max(top, node.z());
-  fmt::print("{},{:.2f},{:.2f},{:.4f},{:.5f},{},{:.3f}\n", name, wall, spent, 100 * depth.max / edge, 100 * depth.mean / edge,
+  fmt::print("{},{:.4f},{:.4f},{:.4f},{:.5f},{},{:.3f}\n", name, wall, spent, 100 * depth.max / edge, 100 * depth.mean / edge,
              depth.touching, top);
   std::fflush(stdout);
 }
@@ -48,15 +51,18 @@ packing::Packing<3> scree_fall(const Scene& scene, const mesh::BlockMesh<3>& blo
   return rigid::settle(blocks, scene.materials, options);
 }
 
-int compare(const std::string& file, double seconds) {
+int compare(const std::string& file, double seconds, const std::string& only) {
   const Scene scene = read_scene(file);
   const auto blocks = mesh::make_blocks<3>(scene.bodies, output::mesh_readers());
   const Material& material = *scene.materials.begin();
   fmt::print("program,wall_s,processor_s,largest_overlap_percent,mean_overlap_percent,touching_pairs,top_m\n");
-  measure("Scree; two threads", [&] { return scree_fall(scene, blocks, seconds, 2); });
-  measure("Scree; one thread", [&] { return scree_fall(scene, blocks, seconds, 1); });
-  measure("Bullet with its own hulls",
-          [&] { return plain_fall(blocks, *material.density, material.friction, seconds).packing; });
+  const std::pair<std::string, std::function<packing::Packing<3>()>> programs[] = {
+      {"Scree; two threads", [&] { return scree_fall(scene, blocks, seconds, 2); }},
+      {"Scree; one thread", [&] { return scree_fall(scene, blocks, seconds, 1); }},
+      {"Bullet with its own hulls", [&] { return plain_fall(blocks, *material.density, material.friction, seconds).packing; }}};
+  for (const auto& [name, fall] : programs) {
+    if (name.starts_with(only)) measure(name, fall);
+  }
   return 0;
 }
 
@@ -64,12 +70,12 @@ int compare(const std::string& file, double seconds) {
 }  // namespace scree::bench
 
 int main(int count, char** words) {
-  if (count != 3) {
-    fmt::print(stderr, "usage: scree_settle_bench SCENE SECONDS\n");
+  if (count != 3 && count != 4) {
+    fmt::print(stderr, "usage: scree_settle_bench SCENE SECONDS [PROGRAM]\n");
     return 2;
   }
   try {
-    return scree::bench::compare(words[1], std::atof(words[2]));
+    return scree::bench::compare(words[1], std::atof(words[2]), count == 4 ? words[3] : "");
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

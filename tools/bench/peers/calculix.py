@@ -1,4 +1,7 @@
-"""Writes the heated cube for CalculiX: eight-node bricks, fixed steps, the iterative solver; and reads its temperatures."""
+"""The heated cube for CalculiX: eight-node bricks, fixed steps, the iterative solver; and the temperatures that it prints."""
+import bisect
+import re
+
 from series import BOTTOM, CONDUCTIVITY, DENSITY, HEAT, HEIGHTS, START, TIMES
 
 
@@ -31,24 +34,18 @@ def write(path, cells, steps):
 
 def read(path, cells):
     """Temperatures at HEIGHTS for TIMES, linear between the nodes of the line."""
-    seen, time, line = {}, None, []
-
-    def close():
-        for t in TIMES:
-            if time is not None and abs(time - t) < 1:
-                seen[t] = {z: between(line, z, cells) for z in HEIGHTS}
-
-    for text in open(path):
-        if "time" in text:
-            close()
-            time, line = float(text.split()[-1]), []
-        elif text.split() and text.split()[0].isdigit():
-            line.append(float(text.split()[1]))
-    close()
-    return seen
+    heights = [k / cells for k in range(cells + 1)]
+    return {t: {z: between(heights, line, z) for z in HEIGHTS} for t, line in printed(path, TIMES).items()}
 
 
-def between(line, z, cells):
-    k = min(int(z * cells + 1e-9), cells - 1)
-    part = z * cells - k
-    return (1 - part) * line[k] + part * line[k + 1]
+def printed(path, times):
+    """The temperatures of the printed nodes, in the order of their numbers, at each of `times`."""
+    blocks = re.split(r"temperatures for set LINE and time\s+(\S+)", path.read_text())[1:]
+    values = {float(t): [float(number) for number in text.split()[1::2]] for t, text in zip(blocks[::2], blocks[1::2])}
+    return {t: line for t in times for at, line in values.items() if abs(at - t) < 1}
+
+
+def between(heights, line, z):
+    k = max(1, min(bisect.bisect_left(heights, z), len(heights) - 1))
+    part = (z - heights[k - 1]) / (heights[k] - heights[k - 1])
+    return (1 - part) * line[k - 1] + part * line[k]
