@@ -17,7 +17,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 SCREE = ROOT / "build/release/bin/scree"
 DEBIAN_PYTHON = "/usr/bin/python3"  # the one that Debian's Python packages are installed for
-PACKAGES = ("python3-dolfinx", "freefem++", "calculix-ccx", "yade", "liggghts", "libbullet3.24", "libopenblas0-serial", "libvtk9.1")
+PACKAGES = ("python3-dolfinx", "freefem++", "calculix-ccx", "yade", "liggghts", "libbullet3.24", "libopenblas0-serial")
+COLOURS = ("#c23b22", "#e08a1e", "#8c564b", "#3d4a8f", "#5b8c5a", "#7a6fb0", "#777777")  # of programs in the plots
 TIMES = ("processor", "wall", "loop")  # what rows state in seconds
 
 # One way of doing the work: `run(size, folder)` gives a row's entries. Sizes above `largest` are left out without --long.
@@ -55,7 +56,7 @@ def machine():
 def parser(text, name, repeats):
     """The options that all benchmarks have."""
     result = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
-    result.add_argument("--quick", action="store_true", help="small sizes and one repetition, in a minute or so")
+    result.add_argument("--quick", action="store_true", help="small sizes and one repetition")
     result.add_argument("--long", action="store_true", help="the slow peers at the large sizes, too")
     result.add_argument("--repeats", type=int, default=repeats, help="of every row, of which the median counts")
     result.add_argument("--only", nargs="+", default=[], help="programs whose name begins so")
@@ -78,7 +79,7 @@ def medians(found, keys):
     return {key: statistics.median(run[key] for run in found) for key in keys}
 
 
-def begin(out):
+def prepare(out):
     out.mkdir(parents=True, exist_ok=True)
     (out / "machine.txt").write_text(machine() + "\n")
     print(machine())
@@ -170,7 +171,7 @@ def finish(name, rows, size, arguments, title, error):
         print_ratios(found, size)
     if arguments.record:
         append_to_record(rows, HERE.parent / f"record_{name}.csv")
-    plot(rows, arguments.out / f"{name}.svg", title, (size, "error", error))
+    plot(rows, arguments.out / f"{name}.png", title, (size, "error", error))
 
 
 def plot(rows, path, title, axes):
@@ -184,13 +185,14 @@ def plot(rows, path, title, axes):
     curves = collections.defaultdict(list)
     for row in rows:
         curves[row["program"], row[size]].append((row["processor"], row[error]))
-    script = [f"set terminal svg size 1000,640 font 'DejaVu Sans,13' background 'white'\nset output '{path}'\nset logscale xy",
-              f"set title '{title}'\nset xlabel 'processor seconds of the whole process'\nset ylabel '{label}'",
+    script = [f"set terminal pngcairo size 1100,640 font 'DejaVu Sans,13' background 'white'\nset output '{path}'\nset logscale xy",
+              f"set title '{title}'\nset xlabel 'processor seconds'\nset ylabel '{label}'",
               "set key outside right top noenhanced\nset grid linetype 1 linecolor '#dddddd'\nset tics nomirror\nset border 3"]
     parts = []
-    for n, ((program, nodes), points) in enumerate(curves.items()):
+    for n, ((program, number), points) in enumerate(curves.items()):
         script.append(f"$curve{n} << END\n" + "\n".join(f"{x:.6g} {y:.6g}" for x, y in sorted(points)) + "\nEND")
-        parts.append(f"$curve{n} with linespoints linecolor {1 + programs.index(program)} pointtype {4 + sizes.index(nodes)} linewidth 1.5 "
-                     f"title '{program}, {nodes:,} {size}'")
+        colour = COLOURS[programs.index(program) % len(COLOURS)]
+        parts.append(f"$curve{n} with linespoints linecolor '{colour}' pointtype {4 + sizes.index(number)} linewidth 1.5 "
+                     f"title '{program}, {number:,} {size}'")
     script.append("plot " + ", ".join(parts))
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
