@@ -130,11 +130,23 @@ def cheapest(rows, error, measure):
     return min((row for row in rows if row["error"] <= error and row[measure] == row[measure]), key=lambda row: row[measure], default=None)
 
 
+def between(rows, error):
+    """The processor seconds of exactly this error, on the straight line in logarithms between the two rows next to it."""
+    front = sorted((row for row in rows if cheapest(rows, row["error"], "processor") is row), key=lambda row: row["error"])
+    finer, coarser = ([row for row in front if (row["error"] <= error) == within] for within in (True, False))
+    if not finer or not coarser:
+        return finer[-1] if finer else None
+    low, high = finer[-1], coarser[0]
+    part = math.log(error / low["error"]) / math.log(high["error"] / low["error"])
+    return {"processor": low["processor"] ** (1 - part) * high["processor"] ** part}
+
+
 def ratios(rows, size):
     """The fastest peer's seconds over Scree's, at the error of every peer that no other peer beats in both; for each size and over all.
 
-    Both sides count with their cheapest row whose error is no larger. Scree is the program "Scree"; its variants are neither side. Where
-    it does not get to an error the ratio is empty.
+    Both sides count with their cheapest row whose error is no larger, so that only what was run counts; `interpolated` asks what Scree would
+    take for the peer's error. Scree is the program "Scree"; its variants are neither side. Where it does not get to an error the ratio is
+    empty.
     """
     result = []
     for only in [*sorted({row[size] for row in rows}), "any"]:
@@ -147,7 +159,8 @@ def ratios(rows, size):
             against = {f"{key}_ratio": ratio(cheapest(peers, peer["error"], key), cheapest(ours, peer["error"], key), key) for key in TIMES}
             result.append({size: only, "error": peer["error"], "peer": f"{peer['program']}, {peer['setting']}", f"peer_{size}": peer[size],
                            "scree": mine["setting"] if mine else "not reached", f"scree_{size}": mine[size] if mine else "",
-                           "scree_error": mine["error"] if mine else "", **against})
+                           "scree_error": mine["error"] if mine else "", **against,
+                           "interpolated_ratio": ratio(peer, between(ours, peer["error"]), "processor")})
     return result
 
 
@@ -156,9 +169,9 @@ def ratio(peer, mine, key):
 
 
 def print_ratios(found, size):
-    print("the fastest peer over Scree, at an error no larger (processor, wall, loop seconds):")
+    print("the fastest peer over Scree, at an error no larger (processor, wall, loop seconds; processor seconds at the same error):")
     for row in found:
-        numbers = ", ".join(shown(row[f"{key}_ratio"]) or "-" for key in TIMES)
+        numbers = ", ".join(shown(row[f"{key}_ratio"]) or "-" for key in (*TIMES, "interpolated"))
         print(f"  {size} {row[size]}: error {row['error']:.3g} by {row['peer']} ({row[f'peer_{size}']} {size}); Scree {row['scree']}: {numbers}")
 
 
