@@ -189,7 +189,7 @@ double clear_height(const mesh::BlockMesh<3>& mesh) {
 PlainFall plain_fall(const mesh::BlockMesh<3>& mesh, double density, double friction, double time) {
   PlainWorld world(mesh, density, friction);
   PlainFall fall;
-  fall.time = world.skip_fall(clear_height(mesh) - 2e-3);
+  fall.time = world.skip_fall(std::max(0.0, clear_height(mesh) - 2e-3));
   for (; fall.time < time - step / 2; fall.time += step) world.advance();
   fall.rms_speed = world.rms_speed();
   fall.packing = packing::unmoved(mesh);
