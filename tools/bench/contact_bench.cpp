@@ -33,8 +33,11 @@ void sizes_and_threads(benchmark::internal::Benchmark* bench) {
 BENCHMARK_CAPTURE(search, settled, settled_piles, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, turned, turned_lattice, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, closed, closed_lattice, contact::Model::semi_spring)->Apply(sizes_and_threads);
+BENCHMARK_CAPTURE(search, jointed_cubes, jointed_cubes, contact::Model::semi_spring)->Apply(sizes_and_threads);
+BENCHMARK_CAPTURE(search, settled_cubes, settled_cubes, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, settled_overlap, settled_piles, contact::Model::overlap)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, closed_overlap, closed_lattice, contact::Model::overlap)->Apply(sizes_and_threads);
+BENCHMARK_CAPTURE(search, jointed_cubes_overlap, jointed_cubes, contact::Model::overlap)->Apply(sizes_and_threads);
 
 }  // namespace
 }  // namespace scree::bench

@@ -52,6 +52,8 @@ mesh::BlockMesh<3> one_body() {
   return mesh;
 }
 
+constexpr double meshed_cube_size = 0.0215;  // of a cube of 0.2 m: 4 thousand tetrahedra
+
 mesh::BodySpec box(const char* name, const Vector3d& size, const Vector3d& centre, double mesh_size) {
   mesh::BodySpec body;
   body.name = name;
@@ -62,11 +64,7 @@ mesh::BodySpec box(const char* name, const Vector3d& size, const Vector3d& centr
   return body;
 }
 
-mesh::BlockMesh<3> settle_a_pile() {
-  mesh::BodySpec plate = box("plate", {1, 1, 0.05}, {0, 0, -0.025}, 0.1);
-  plate.fixed = true;
-  mesh::BodySpec cube = box("cube", {0.2, 0.2, 0.2}, {0, 0, 0.12}, 0.05);
-  cube.blocks = mesh::BlockRule::per_element;
+mesh::BlockMesh<3> settled(const std::vector<mesh::BodySpec>& bodies) {
   Material rock;
   rock.density = 2500;
   rock.friction = 0.8;
@@ -75,7 +73,32 @@ mesh::BlockMesh<3> settle_a_pile() {
   options.step = 0.008;
   options.local_damping = 0.8;
   options.iterations = 20;
-  return packing::placed_mesh(rigid::settle(mesh::make_blocks<3>({plate, cube}), Table<MaterialId, Material>({rock}), options));
+  return packing::placed_mesh(rigid::settle(mesh::make_blocks<3>(bodies), Table<MaterialId, Material>({rock}), options));
+}
+
+mesh::BodySpec plate() {
+  mesh::BodySpec plate = box("plate", {1, 1, 0.05}, {0, 0, -0.025}, 0.1);
+  plate.fixed = true;
+  return plate;
+}
+
+mesh::BlockMesh<3> pile_of_tetrahedra() {
+  mesh::BodySpec cube = box("cube", {0.2, 0.2, 0.2}, {0, 0, 0.12}, 0.05);
+  cube.blocks = mesh::BlockRule::per_element;
+  return settled({plate(), cube});
+}
+
+// Eight cubes of 4 thousand tetrahedra, dropped slantwise onto one another.
+mesh::BlockMesh<3> pile_of_cubes() {
+  mesh::BodySpec cubes = box("cubes", {0.2, 0.2, 0.2}, {0, 0, 0}, meshed_cube_size);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::AngleAxisd turn(0.4 * i, Vector3d(1, i, 2).normalized());
+    poses.push_back(
+        {Vector3d(0.22 * (i % 2) - 0.11, 0.22 * (i / 2 % 2) - 0.11, 0.2 + 0.36 * (i / 4)), Eigen::Quaterniond(turn)});
+  }
+  cubes.arrangement = mesh::AtPoses{poses};
+  return settled({plate(), cubes});
 }
 
 template <class IdType>
@@ -95,6 +118,18 @@ void append(mesh::BlockMesh<3>& mesh, const mesh::BlockMesh<3>& copy, const Vect
     block.elements = moved(block.elements, first_element);
     mesh.blocks.push_back(block);
   }
+}
+
+// Copies of a pile that give about `faces` boundary faces.
+mesh::BlockMesh<3> side_by_side(const mesh::BlockMesh<3>& pile, std::size_t faces) {
+  mesh::BlockMesh<3> mesh;
+  mesh.bodies = pile.bodies;
+  const auto copies = std::max<std::size_t>(1, faces / mesh::boundary_faces(pile).size());
+  const auto row = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
+  for (std::size_t i = 0; i < copies; ++i) {
+    append(mesh, pile, {1.1 * static_cast<double>(i % row), 1.1 * static_cast<double>(i / row), 0});
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -120,15 +155,23 @@ mesh::BlockMesh<3> turned_lattice(std::size_t faces) {
 }
 
 mesh::BlockMesh<3> settled_piles(std::size_t faces) {
-  static const mesh::BlockMesh<3> pile = settle_a_pile();
-  static const std::size_t pile_faces = mesh::boundary_faces(pile).size();
+  static const mesh::BlockMesh<3> pile = pile_of_tetrahedra();
+  return side_by_side(pile, faces);
+}
+
+mesh::BlockMesh<3> settled_cubes(std::size_t faces) {
+  static const mesh::BlockMesh<3> pile = pile_of_cubes();
+  return side_by_side(pile, faces);
+}
+
+mesh::BlockMesh<3> jointed_cubes(std::size_t faces) {
+  static const mesh::BlockMesh<3> cube = mesh::make_blocks<3>({box("cube", {0.2, 0.2, 0.2}, {0, 0, 0}, meshed_cube_size)});
+  static const std::size_t cube_faces = mesh::boundary_faces(cube).size();
+  const auto cubes = static_cast<double>(faces) / static_cast<double>(cube_faces);
+  const int side = std::max(1, static_cast<int>(std::lround(std::cbrt(cubes))));
   mesh::BlockMesh<3> mesh;
-  mesh.bodies = pile.bodies;
-  const auto copies = std::max<std::size_t>(1, faces / pile_faces);
-  const auto row = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
-  for (std::size_t i = 0; i < copies; ++i) {
-    append(mesh, pile, {1.1 * static_cast<double>(i % row), 1.1 * static_cast<double>(i / row), 0});
-  }
+  mesh.bodies = cube.bodies;
+  for (int i = 0; i < side * side * side; ++i) append(mesh, cube, 0.2 * Vector3d(i % side, i / side % side, i / side / side));
   return mesh;
 }
 

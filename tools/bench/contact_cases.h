@@ -16,4 +16,10 @@ mesh::BlockMesh<3> turned_lattice(std::size_t faces);
 // give about `faces` boundary faces.
 mesh::BlockMesh<3> settled_piles(std::size_t faces);
 
+// The same of eight cubes of 4 thousand tetrahedra each: blocks of many elements, as in most scenes.
+mesh::BlockMesh<3> settled_cubes(std::size_t faces);
+
+// Such cubes in a lattice, each joined to its neighbours on its whole sides. At least one; their number is a cube itself.
+mesh::BlockMesh<3> jointed_cubes(std::size_t faces);
+
 }  // namespace scree::bench
