@@ -115,8 +115,8 @@ typename BoxGrid<dim>::Packed BoxGrid<dim>::pack(const Aabb<dim>& box) const {
   Packed packed;
   for (int i = 0; i < dim; ++i) {
     const double low = box.min()[i] - origin_[i], high = box.max()[i] - origin_[i];
-    packed[i] = static_cast<float>(low - rounding * std::abs(low));
-    packed[dim + i] = -static_cast<float>(high + rounding * std::abs(high));
+    packed.low[i] = static_cast<float>(low - rounding * std::abs(low));
+    packed.high[i] = static_cast<float>(high + rounding * std::abs(high));
   }
   return packed;
 }
@@ -127,7 +127,7 @@ std::size_t BoxGrid<dim>::slot_of(const Level& level, const Aabb<dim>& box) cons
   const Packed packed = pack(box);
   std::size_t slot = 0;
   for (int i = dim - 1; i >= 0; --i) {
-    const auto cell = static_cast<std::int64_t>(std::floor(packed[i] * level.cells_per_metre[i]));
+    const auto cell = static_cast<std::int64_t>(std::floor(packed.low[i] * level.cells_per_metre[i]));
     slot = slot << level.bits[i] | (static_cast<std::size_t>(cell) & ((std::size_t{1} << level.bits[i]) - 1));
   }
   return slot;
@@ -149,15 +149,13 @@ void BoxGrid<dim>::find(std::uint32_t place, std::vector<std::uint32_t>& found) 
 template <int dim>
 void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_t before,
                              std::vector<std::uint32_t>& found) const {
-  Packed turned;
   Cell low, count;
   for (int i = 0; i < dim; ++i) {
-    turned[i] = -box[dim + i];
-    turned[dim + i] = -box[i];
     constexpr double rounding = 1 + 1e-6;
-    const double from = box[i] - level.largest[i] * rounding - 1e-6 * std::abs(double{box[i]});
+    const double corner = box.low[i];
+    const double from = corner - level.largest[i] * rounding - 1e-6 * std::abs(corner);
     low[i] = static_cast<std::int64_t>(std::floor(from * level.cells_per_metre[i]));
-    const auto high = static_cast<std::int64_t>(std::floor(-box[dim + i] * level.cells_per_metre[i]));
+    const auto high = static_cast<std::int64_t>(std::floor(box.high[i] * level.cells_per_metre[i]));
     count[i] = std::min(high - low[i] + 1, std::int64_t{1} << level.bits[i]);
   }
   const std::int64_t row_cells = std::int64_t{1} << level.bits[0];
@@ -171,18 +169,17 @@ void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_
         row |= (static_cast<std::size_t>(low[2] + z) & ((std::size_t{1} << level.bits[2]) - 1)) << level.bits[1];
       }
       const std::uint32_t* starts = level.starts.data() + (row << level.bits[0]);
-      test(starts[begin], std::min(starts[std::min(end, row_cells)], before), turned, found);
-      if (end > row_cells) test(starts[0], std::min(starts[end - row_cells], before), turned, found);
+      test(starts[begin], std::min(starts[std::min(end, row_cells)], before), box, found);
+      if (end > row_cells) test(starts[0], std::min(starts[end - row_cells], before), box, found);
     }
   }
 }
 
 template <int dim>
-void BoxGrid<dim>::test(std::uint32_t from, std::uint32_t to, const Packed& turned, std::vector<std::uint32_t>& found) const {
+void BoxGrid<dim>::test(std::uint32_t from, std::uint32_t to, const Packed& box, std::vector<std::uint32_t>& found) const {
   for (std::uint32_t other = from; other < to; ++other) {
-    bool meet = true;
-    for (int i = 0; i < 2 * dim; ++i) meet = meet & (packed_[other][i] <= turned[i]);
-    if (meet) found.push_back(other);
+    const Packed& theirs = packed_[other];
+    if (bits((theirs.low > box.high) | (box.low > theirs.high)) == 0) found.push_back(other);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/lanes.h"
 #include "engine/base/geometry.h"
 
 namespace scree::contact {
@@ -28,9 +29,12 @@ class BoxGrid {
   void find(std::uint32_t place, std::vector<std::uint32_t>& found) const;
 
  private:
-  // Low corner and negative high corner, in single precision, rounded outwards: boxes meet if no entry of the one is
-  // above that of the other turned round.
-  using Packed = std::array<float, 2 * dim>;
+  // In single precision, rounded outwards: boxes meet if no low corner is above the other's high one. Lanes beyond the last
+  // axis are 0.
+  struct Packed {
+    Lanes low{};
+    Lanes high{};
+  };
   using Cell = std::array<std::int64_t, dim>;
 
   struct Level {
@@ -47,7 +51,7 @@ class BoxGrid {
   [[nodiscard]] Packed pack(const Aabb<dim>& box) const;
   [[nodiscard]] std::size_t slot_of(const Level& level, const Aabb<dim>& box) const;
   void look_into(const Level& level, const Packed& box, std::uint32_t before, std::vector<std::uint32_t>& found) const;
-  void test(std::uint32_t from, std::uint32_t to, const Packed& turned, std::vector<std::uint32_t>& found) const;
+  void test(std::uint32_t from, std::uint32_t to, const Packed& box, std::vector<std::uint32_t>& found) const;
 
   Point<dim> origin_ = Point<dim>::Zero();
   std::vector<Level> levels_;  // from fine to coarse

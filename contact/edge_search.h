@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/choice.h"
+#include "contact/edge_pairs.h"
 #include "contact/find_contacts.h"
 #include "contact/near_shells.h"
 
@@ -13,7 +14,7 @@ namespace scree::contact {
 // Is shown all pairs of shells that are near, then asked.
 class EdgeSearch {
  public:
-  EdgeSearch(const Surface<3>& surface, const ContactOptions& options, std::size_t shells);
+  EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table);
 
   // From any thread, one at a time for each chunk.
   void look_at(std::size_t chunk, const ShellPair<3>& pair);
@@ -22,23 +23,22 @@ class EdgeSearch {
   [[nodiscard]] std::vector<EdgeId> targets(const std::vector<FaceId>& spring_targets);
 
  private:
-  // A semi-edge (face * 3 + side) and an edge that may touch.
+  // Two shells and those of their edges that may touch.
   struct Near {
-    std::uint32_t semi_edge;
-    EdgeId edge;
+    std::uint32_t first;
+    std::uint32_t second;
+    EdgePairs edges;
   };
-  // One that does.
+  // A semi-edge (face * 3 + side) and a target edge.
   struct Touching {
     std::uint32_t semi_edge;
     Candidate<EdgeId> candidate;
   };
-
-  struct EdgePair;
-  void look_at_sides(const EdgePair& edges, std::vector<Near>& near) const;
-  [[nodiscard]] std::vector<Touching> touching(const std::vector<Near>& near, const std::vector<FaceId>& spring_targets) const;
+  class Asking;
 
   const Surface<3>& surface_;  // of the caller, who keeps them
   const ContactOptions& options_;
+  const ShellTable<3>& table_;
   std::vector<std::vector<Near>> near_;  // of each chunk
 };
 

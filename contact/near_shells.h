@@ -1,6 +1,7 @@
 // Coarse search: which shells come so near each other that some of their faces or edges may touch.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -23,23 +24,19 @@ ShellTable<dim> make_shells(const Surface<dim>& surface, const ShellOptions& opt
 // Two shells and the heights of the vertices of the one above the planes of the other.
 template <int dim>
 struct ShellPair {
-  // The heights are left to be filled in.
-  ShellPair(const ShellTable<dim>& table, std::uint32_t one, std::uint32_t other)
-      : first_place(one), second_place(other), first(table.shells[one]), second(table.shells[other]) {}
-
   std::uint32_t first_place;
   std::uint32_t second_place;
   const Shell<dim>& first;
   const Shell<dim>& second;
-  Heights<dim> above_first;  // those beyond the number of faces are unused
+  Way<dim> way;              // from the first to the second
+  Heights<dim> above_first;  // of the second's vertices
   Heights<dim> above_second;
 };
 
 // What touches is nearer than this: a semi-edge may touch in place of its edge.
 template <int dim>
-double slack(const Shell<dim>& a, const Shell<dim>& b) {
-  constexpr double margin = 1 + 1e-9;  // so that rounding dismisses nothing that touches
-  return margin * std::max(a.reach + a.shift, b.reach + b.shift);
+float slack(const Shell<dim>& a, const Shell<dim>& b) {
+  return std::max(a.reach + a.shift, b.reach + b.shift);
 }
 
 // Calls visit(chunk number, pair) once for every two shells of two blocks that no plane of theirs parts by more than what
@@ -49,15 +46,19 @@ void visit_near(const ShellTable<dim>& table, const Visit& visit) {
   for_chunks(table.shells.size(), [&](Chunk chunk) {
     std::vector<std::uint32_t> found;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const auto place = static_cast<std::uint32_t>(i);
       const Shell<dim>& own = table.shells[i];
-      table.grid.find(static_cast<std::uint32_t>(i), found);
+      table.grid.find(place, found);
       for (const auto j : found) {
         const Shell<dim>& other = table.shells[j];
         if (own.block == other.block) continue;
-        const double distance = slack(own, other);
-        ShellPair<dim> pair(table, static_cast<std::uint32_t>(i), j);
-        if (!heights_within(own, other, distance, pair.above_first)) continue;
-        if (heights_within(other, own, distance, pair.above_second)) visit(chunk.number, pair);
+        const Way<dim> way(own, other);
+        const float distance = slack(own, other) + way.rounding;
+        const Heights<dim> above_own = heights_above<dim>(own, vertices_from(other, way));
+        if (all_beyond_one(above_own, distance)) continue;
+        const Heights<dim> above_other = heights_above<dim>(other, vertices_back(own, way));
+        if (all_beyond_one(above_other, distance)) continue;
+        visit(chunk.number, ShellPair<dim>{place, j, own, other, way, above_own, above_other});
       }
     }
   });

@@ -15,8 +15,24 @@ constexpr double least_share = 1e-13;  // of the smaller face
 template <int dim>
 using Place = Eigen::Matrix<double, 2 * dim, 1>;
 
+// Convex, in order. Each of the five lines that clip a triangle adds one corner; were all corners on it but for rounding, half
+// as many again: never more than 19.
 template <int dim>
-using Polygon = std::vector<Place<dim>>;  // convex, in order
+class Polygon {
+ public:
+  [[nodiscard]] std::size_t size() const { return size_; }
+  const Place<dim>& operator[](std::size_t i) const { return places_[i]; }
+  Place<dim>& operator[](std::size_t i) { return places_[i]; }
+  void push_back(const Place<dim>& place) { places_[size_++] = place; }
+  void assign(const Polygon& other) {
+    size_ = other.size_;
+    std::copy_n(other.places_.begin(), size_, places_.begin());
+  }
+
+ private:
+  std::array<Place<dim>, 19> places_;
+  std::size_t size_ = 0;
+};
 
 // Area of a face as seen along the normal, with the sign of its sense of rotation.
 template <int dim>
@@ -33,9 +49,9 @@ double seen_area(const Corners<dim>& corners, const Point<dim>& normal) {
 template <int dim>
 Polygon<dim> whole_first(const FacePair<dim>& pair) {
   const double area = seen_area<dim>(pair.second, pair.normal);
-  Polygon<dim> polygon(dim, Place<dim>::Zero());
+  Polygon<dim> polygon;
   for (int i = 0; i < dim; ++i) {
-    polygon[i][i] = 1;
+    polygon.push_back(Place<dim>::Unit(i));
     for (int j = 0; j < dim; ++j) {
       Corners<dim> part = pair.second;
       part[j] = pair.first[i];
@@ -59,7 +75,7 @@ void clip(Polygon<dim>& polygon, const Place<dim>& value) {
     const double there = value.dot(to);
     if ((here < 0) != (there < 0)) kept.push_back(from + here / (here - there) * (to - from));
   }
-  polygon = std::move(kept);
+  polygon.assign(kept);
 }
 
 // The gap as a function of the weights.

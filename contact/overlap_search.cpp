@@ -1,8 +1,11 @@
 #include "contact/overlap_search.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "contact/near_shells.h"
+#include "contact/overlap.h"
 #include "engine/base/chunks.h"
 
 namespace scree::contact {
@@ -11,36 +14,50 @@ namespace {
 
 using FacePairs = std::vector<std::pair<FaceId, FaceId>>;
 
-// Are all corners of a face more than `reach` on one side of a plane of the other shell?
+// Which faces of a shell come within `reach` of each plane of another: [plane], one bit for each face.
 template <int dim>
-bool all_beyond(const std::array<double, dim + 1>& heights, const std::array<std::int8_t, dim>& corners, double reach) {
-  double low = heights[corners[0]], high = low;
-  for (const int corner : corners) {
-    low = std::min(low, heights[corner]);
-    high = std::max(high, heights[corner]);
+std::array<unsigned, dim + 1> faces_within(const Heights<dim>& heights, float reach) {
+  std::array<unsigned, dim + 1> above, below;  // of each vertex, one bit for each plane
+  for (int v = 0; v <= dim; ++v) {
+    above[v] = bits(heights[v] > reach);
+    below[v] = bits(heights[v] < -reach);
   }
-  return low > reach || high < -reach;
+  std::array<unsigned, dim + 1> within{};
+  for (int face = 0; face <= dim; ++face) {
+    unsigned all_above = ~0u, all_below = ~0u;
+    for (const int corner : mesh::opposite_corners<dim>[face]) {
+      all_above &= above[corner];
+      all_below &= below[corner];
+    }
+    const unsigned planes = ~(all_above | all_below);
+    for (int plane = 0; plane <= dim; ++plane) within[plane] |= (planes >> plane & 1u) << face;
+  }
+  return within;
 }
 
 // The pairs of faces of two shells that may lie on each other.
 template <int dim>
 void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
   const Shell<dim>&a = pair.first, &b = pair.second;
+  constexpr auto cosine = static_cast<float>(least_opposed);
   // Heights above an inclined plane are at most 1/cos of the gap between the faces.
-  const double reach = std::min(a.reach, b.reach) / least_opposed;
-  for (int i = 0; i < a.faces; ++i) {
-    for (int j = 0; j < b.faces; ++j) {
-      if (a.normals[i].dot(b.normals[j]) > -least_opposed) continue;
-      if (all_beyond<dim>(pair.above_first[i], b.corners[j], reach) ||
-          all_beyond<dim>(pair.above_second[j], a.corners[i], reach))
-        continue;
-      pairs.push_back(std::minmax(a.face(i), b.face(j)));
+  const float reach = std::min(a.reach, b.reach) / cosine + pair.way.rounding;
+  const auto second = faces_within<dim>(pair.above_first, reach), first = faces_within<dim>(pair.above_second, reach);
+  for (int i = 0; i <= dim; ++i) {
+    if ((a.faces >> i & 1u) == 0) continue;
+    for (unsigned left = second[i] & b.faces; left != 0; left &= left - 1) {
+      const int j = std::countr_zero(left);
+      if ((first[j] >> i & 1u) == 0) continue;
+      float opposed = 0;
+      for (int axis = 0; axis < dim; ++axis) opposed -= a.normals[axis][i] * b.normals[axis][j];
+      constexpr float rounding = 1e-6F;
+      if (opposed >= cosine - rounding) pairs.push_back(std::minmax(a.face(i), b.face(j)));
     }
   }
 }
 
 // Pairs that cheap bounds do not dismiss, ascending.
-template <int dim>
+template <int dim, class Wanted>
 FacePairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
   const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
   const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
@@ -73,49 +90,64 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   return contact;
 }
 
+// What `make` gives for every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of
+// faces, first < second: make(first, second, points, into) appends to `into`. On all threads.
+template <class Item, int dim, class Wanted, class Make>
+std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
+  const FacePairs pairs = near_pairs(surface, tolerance, wanted);
+  std::vector<std::vector<Item>> parts(chunk_count(pairs.size()));
+  for_chunks(pairs.size(), [&](Chunk chunk) {
+    std::vector<OverlapPoint<dim>> points;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const auto& [first, second] = pairs[i];
+      const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
+                                           surface.normals[second]);
+      if (!pair) continue;
+      overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
+      if (!points.empty()) make(first, second, points, parts[chunk.number]);
+    }
+  });
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  std::vector<Item> items;
+  items.reserve(count);
+  for (auto& part : parts) {
+    items.insert(items.end(), part.begin(), part.end());
+    part = {};
+  }
+  return items;
+}
+
 }  // namespace
 
 template <int dim>
-void visit_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const VisitOverlap<dim>& visit) {
-  std::vector<OverlapPoint<dim>> points;
-  for (const auto& [first, second] : near_pairs(surface, tolerance, wanted)) {
-    const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
-                                         surface.normals[second]);
-    if (!pair) continue;
-    overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
-    if (!points.empty()) visit(first, second, points);
-  }
-}
-
-template <int dim>
 std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options) {
-  std::vector<Contact<dim>> contacts;
   const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
-  visit_overlaps<dim>(surface, options.tolerance, wanted,
-                      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points) {
-                        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
-                      });
-  return contacts;
+  return of_overlaps<Contact<dim>>(
+      surface, options.tolerance, wanted,
+      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
+        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
+      });
 }
 
 template <int dim>
 std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance) {
   if (mesh.blocks.size() < 2) return {};
   const Surface<dim> surface = make_surface(mesh);
-  const auto body_of = [&](FaceId face) { return mesh.blocks[surface.faces[face].block].body; };
-  std::map<std::pair<BodyId, BodyId>, double> areas;
-  visit_overlaps<dim>(
+  using Share = std::pair<std::pair<BodyId, BodyId>, double>;
+  const auto shares = of_overlaps<Share>(
       surface, tolerance, [](BodyId, BodyId) { return true; },
-      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points) {
-        double& area = areas[std::minmax(body_of(first), body_of(second))];
-        for (const auto& point : points) area += point.area;
+      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Share>& into) {
+        const auto body_of = [&](FaceId face) { return mesh.blocks[surface.faces[face].block].body; };
+        for (const auto& point : points) into.push_back({std::minmax(body_of(first), body_of(second)), point.area});
       });
+  std::map<std::pair<BodyId, BodyId>, double> areas;
+  for (const auto& [bodies, area] : shares) areas[bodies] += area;
   return areas;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                             \
-  template void visit_overlaps<dim>(const Surface<dim>&, double, const Wanted&, const VisitOverlap<dim>&); \
-  template std::vector<Contact<dim>> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&);    \
+#define SCREE_INSTANTIATE(dim)                                                                          \
+  template std::vector<Contact<dim>> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&); \
   template std::map<std::pair<BodyId, BodyId>, double> overlap_areas<dim>(const mesh::BlockMesh<dim>&, double);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -36,20 +36,4 @@ inline std::optional<Crossing> line_crossing(const Point<3>& a0, const Point<3>&
   return Crossing{between.cross(b).dot(normal) / square, between.cross(a).dot(normal) / square, normal / std::sqrt(square)};
 }
 
-// Could two segments cross, seen along their common normal, with no more than `distance` between them? Says no only if
-// line_crossing, a little slower, would say so.
-inline bool may_cross(const Point<3>& a0, const Point<3>& a1, const Point<3>& b0, const Point<3>& b1, double distance) {
-  constexpr double rounding = 1e-9;
-  const Point<3> a = a1 - a0, b = b1 - b0, between = b0 - a0;
-  const Point<3> normal = a.cross(b);
-  const double square = normal.squaredNorm();
-  const double volume = normal.dot(between);
-  if (volume * volume > (1 + rounding) * distance * distance * square) return false;
-  const double least = (1 - rounding) * least_crossing_sine * least_crossing_sine;
-  if (square < least * a.squaredNorm() * b.squaredNorm()) return false;
-  const double along_a = between.cross(b).dot(normal), along_b = between.cross(a).dot(normal);
-  const double low = -rounding * square, high = (1 + rounding) * square;
-  return along_a >= low && along_a <= high && along_b >= low && along_b <= high;
-}
-
 }  // namespace scree::contact

@@ -1,40 +1,72 @@
 #include "contact/shell.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+
+#include "contact/tetrahedron.h"
 
 namespace scree::contact {
 
 namespace {
 
-void add_sides(const Surface<3>& surface, FaceId f, Shell<3>& shell) {
-  const int at = shell.faces - 1;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int side = 0; side < 3; ++side) {
-    const auto [low, high] = std::minmax({shell.corners[at][side], shell.corners[at][(side + 1) % 3]});
-    const double length = (shell.vertex(high) - shell.vertex(low)).norm();
-    shortest = std::min(shortest, length);
-    shell.longest = std::max(shell.longest, length);
-    // element_edges has them in the order of their vertices.
-    EdgeSides& edge = shell.edges[low == 0 ? high - 1 : low + high];
-    const auto number = static_cast<std::int8_t>(3 * at + side);
-    edge.sides[edge.sides[0] < 0 ? 0 : 1] = number;
-    if (surface.edges[surface.face_edges[f][side]].faces[0] == f) edge.first = number;
+template <int dim>
+using Vertices = std::array<Point<dim>, dim + 1>;
+
+// Outward normal of the face opposite to a vertex, of any length.
+template <int dim>
+Point<dim> outward(const Vertices<dim>& vertices, int opposite) {
+  const auto& corners = mesh::opposite_corners<dim>[opposite];
+  const Point<dim> way = vertices[corners[1]] - vertices[corners[0]];
+  if constexpr (dim == 2) {
+    return {way.y(), -way.x()};
+  } else {
+    return way.cross(vertices[corners[2]] - vertices[corners[0]]);
   }
-  // The centre is a third of the height above each edge.
-  shell.shift = std::max(shell.shift, 2 * surface.areas[f] / shortest / 3);
+}
+
+// Lanes beyond the last vertex repeat the first.
+template <int dim>
+void place_vertices(const Surface<dim>& surface, const Vertices<dim>& vertices, Shell<dim>& shell) {
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const int v = lane <= dim ? lane : 0;
+    const bool boundary = (shell.faces >> v & 1u) != 0;
+    const Point<dim> normal = boundary ? surface.normals[shell.face(v)] : outward<dim>(vertices, v).normalized();
+    shell.offsets[lane] = static_cast<float>(normal.dot(vertices[mesh::opposite_corners<dim>[v][0]]));
+    for (int i = 0; i < dim; ++i) {
+      shell.at[i][lane] = static_cast<float>(vertices[v][i]);
+      shell.normals[i][lane] = static_cast<float>(normal[i]);
+    }
+  }
 }
 
 template <int dim>
-void add_face(const Surface<dim>& surface, FaceId f, const std::array<NodeId, dim + 1>& nodes, Shell<dim>& shell) {
-  const int at = shell.faces++;
-  for (int i = 0; i < dim; ++i) {
-    const auto vertex = std::find(nodes.begin(), nodes.end(), surface.faces[f].nodes[i]) - nodes.begin();
-    shell.corners[at][i] = static_cast<std::int8_t>(vertex);
+double longest_edge(const Vertices<dim>& vertices) {
+  double square = 0;
+  for (int i = 0; i <= dim; ++i) {
+    for (int j = 0; j < i; ++j) square = std::max(square, (vertices[i] - vertices[j]).squaredNorm());
   }
-  shell.normals[at] = surface.normals[f];
-  shell.offsets[at] = shell.normals[at].dot(shell.vertex(shell.corners[at][0]));
-  if constexpr (dim == 3) add_sides(surface, f, shell);
+  return std::sqrt(square);
+}
+
+// Is the face that is opposite to a vertex this one of the surface?
+template <int dim>
+bool is_opposite(const Surface<dim>& surface, FaceId face, NodeId vertex) {
+  const auto& nodes = surface.faces[face].nodes;
+  return std::find(nodes.begin(), nodes.end(), vertex) == nodes.end();
+}
+
+// A target edge is searched in the shell of its first face.
+void add_edges(const Surface<3>& surface, Shell<3>& shell) {
+  for (unsigned e = 0; e < element_edges.size(); ++e) {
+    for (const int face : element_edges[e].beside) {
+      if ((shell.faces >> face & 1u) == 0) continue;
+      const FaceId f = shell.face(face);
+      const EdgeId edge = surface.face_edges[f][side_of(element_edges[e], face)];
+      if (surface.edges[edge].faces[0] != f) continue;
+      shell.edges = static_cast<std::uint8_t>(shell.edges | 1u << e);
+      shell.targets[e] = edge;
+    }
+  }
 }
 
 }  // namespace
@@ -53,15 +85,32 @@ template <int dim>
 Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, const ShellOptions& options) {
   Shell<dim> shell;
   const auto& nodes = surface.mesh.elements[surface.faces[first].element];
-  for (int i = 0; i <= dim; ++i) {
-    for (int axis = 0; axis < dim; ++axis) shell.at[axis][i] = surface.mesh.nodes[nodes[i]][axis];
+  Vertices<dim> vertices;
+  shell.centre.setZero();
+  for (int v = 0; v <= dim; ++v) {
+    vertices[v] = surface.mesh.nodes[nodes[v]];
+    shell.centre += vertices[v] / (dim + 1);
   }
-  shell.first = first;
+  double square = 0;
+  for (Point<dim>& vertex : vertices) {
+    vertex -= shell.centre;
+    square = std::max(square, vertex.squaredNorm());
+  }
+  shell.radius = static_cast<float>(std::sqrt(square));
+  shell.reach = static_cast<float>(options.tolerance * surface.lengths[first]);
+  // The centre of a face is a third of its height above an edge.
+  if constexpr (dim == 3) shell.shift = static_cast<float>(options.indentation * longest_edge<dim>(vertices) / 3);
   shell.block = surface.faces[first].block;
   shell.whole = surface.mesh.blocks[shell.block].elements.size() == 1;
-  shell.reach = options.tolerance * surface.lengths[first];
-  for (std::size_t f = first.index(); f < end.index(); ++f) add_face<dim>(surface, FaceId{f}, nodes, shell);
-  shell.shift *= options.indentation;
+  shell.first = first;
+  FaceId next = first;
+  for (int v = 0; v <= dim && next < end; ++v) {
+    if (!is_opposite(surface, next, nodes[v])) continue;
+    shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << v);
+    next = FaceId{next.index() + 1};
+  }
+  place_vertices(surface, vertices, shell);
+  if constexpr (dim == 3) add_edges(surface, shell);
   return shell;
 }
 

@@ -1,83 +1,97 @@
-// What the coarse search works on: shells, each the boundary faces of one element. They share their corners, so that one table
-// of heights serves all pairs of faces of two shells, and the element lies behind all of their planes, so that what is beyond
-// one of them is far from the shell.
+// What the coarse search works on: shells, each the boundary faces of one element. The element lies behind all of its planes,
+// inner faces' too, so that what is beyond one of them is that far from the shell at least.
+//
+// Vertex i of a shell is that of its element, and plane and face i are opposite to it. Places are in single precision from the
+// element's centre, so that rounding is that of the element's size and not of its distance from the origin.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "contact/lanes.h"
 #include "contact/surface.h"
 
 namespace scree::contact {
 
-// The edges of a tetrahedron, as vertices, and the two vertices beside each.
-struct ElementEdge {
-  int start, end, left, right;
-};
-inline constexpr std::array<ElementEdge, 6> element_edges = {
-    {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
-
-// The sides of a shell's faces (3 face + side) that are an edge of its element; -1 if there is none.
-struct EdgeSides {
-  std::array<std::int8_t, 2> sides{-1, -1};
-  std::int8_t first = -1;  // the one in which the edge is searched; in another shell if its first face is there
-};
-
 template <int dim>
 struct Shell {
-  std::array<std::array<double, dim + 1>, dim> at;  // coordinates of the element's vertices, axis by axis
-  std::array<Point<dim>, dim + 1> normals;          // of the faces; those beyond `faces` are unused
-  std::array<double, dim + 1> offsets;              // of the faces' planes: normal . x = offset [m]
-  double reach = 0;                                 // tolerance, over the faces' semi-springs [m]
-  double shift = 0;                                 // no semi-edge is further from its edge [m]
-  FaceId first;                                     // the faces are consecutive
-  std::int32_t faces = 0;
+  LanePoints<dim> at;       // the vertices, a lane each [m]; in 2-D the last lane repeats the first, here and below
+  LanePoints<dim> normals;  // of the planes, unit, outwards
+  Lanes offsets;            // of the planes: normal . x = offset [m]
+  Point<dim> centre;        // [m]
+  float radius = 0;         // no vertex is further from the centre [m]
+  float reach = 0;          // tolerance, over the faces' semi-springs [m]
+  float shift = 0;          // no semi-edge is further from its edge [m]
   BlockId block;
-  bool whole = false;                                         // the block has no other element
-  std::array<std::array<std::int8_t, dim>, dim + 1> corners;  // of each face, as vertices
-  std::array<EdgeSides, dim == 3 ? 6 : 0> edges;              // of each of element_edges
-  double longest = 0;                                         // edge [m]
+  FaceId first;            // the boundary faces are consecutive, in the order of their planes
+  std::uint8_t faces = 0;  // bit i: face i is a boundary face
+  bool whole = false;      // the block has no other element
+  std::uint8_t edges = 0;  // 3-D. Bit i: edge i of tetrahedron.h is a target edge that is searched here; each is, once
+  std::array<EdgeId, dim == 3 ? 6 : 0> targets;  // the ids of those
 
-  [[nodiscard]] Point<dim> vertex(int v) const {
-    Point<dim> point;
-    for (int i = 0; i < dim; ++i) point[i] = at[i][v];
-    return point;
+  [[nodiscard]] FaceId face(int i) const {
+    std::size_t before = 0;
+    for (int j = 0; j < i; ++j) before += faces >> j & 1u;
+    return FaceId{first.index() + before};
   }
-  [[nodiscard]] FaceId face(int i) const { return FaceId{first.index() + static_cast<std::size_t>(i)}; }
 };
 
-// Heights of the vertices of one shell above the planes of another.
+// Where the second of two shells is as seen from the first.
 template <int dim>
-using Heights = std::array<std::array<double, dim + 1>, dim + 1>;
-
-template <int dim>
-void heights_above(const Shell<dim>& planes, int face, const Shell<dim>& of, std::array<double, dim + 1>& heights) {
-  const Point<dim>& normal = planes.normals[face];
-  for (int v = 0; v <= dim; ++v) heights[v] = -planes.offsets[face];
-  for (int i = 0; i < dim; ++i) {
-    for (int v = 0; v <= dim; ++v) heights[v] += normal[i] * of.at[i][v];
+struct Way {
+  Way(const Shell<dim>& from, const Shell<dim>& to) {
+    // Some ten roundings of single precision, each of a length in this sum.
+    constexpr float unit = 2e-6F;
+    rounding = from.radius + to.radius;
+    for (int i = 0; i < dim; ++i) {
+      axes[i] = static_cast<float>(to.centre[i] - from.centre[i]);
+      rounding += std::abs(axes[i]);
+    }
+    rounding *= unit;
   }
+
+  std::array<float, dim> axes;  // [m]
+  float rounding = 0;           // no height or distance is off by more [m]
+};
+
+// The vertices of the second shell as seen from the first.
+template <int dim>
+LanePoints<dim> vertices_from(const Shell<dim>& second, const Way<dim>& way) {
+  LanePoints<dim> points = second.at;
+  for (int i = 0; i < dim; ++i) points[i] += way.axes[i];
+  return points;
 }
 
+// The vertices of the first shell as seen from the second.
 template <int dim>
-Heights<dim> heights_above(const Shell<dim>& planes, const Shell<dim>& of) {
+LanePoints<dim> vertices_back(const Shell<dim>& first, const Way<dim>& way) {
+  LanePoints<dim> points = first.at;
+  for (int i = 0; i < dim; ++i) points[i] -= way.axes[i];
+  return points;
+}
+
+// Heights above the planes of a shell: of each point, a lane for every plane.
+template <int dim>
+using Heights = std::array<Lanes, dim + 1>;
+
+template <int dim>
+Heights<dim> heights_above(const Shell<dim>& planes, const LanePoints<dim>& points) {
   Heights<dim> heights;
-  for (int f = 0; f < planes.faces; ++f) heights_above(planes, f, of, heights[f]);
+  for (int v = 0; v <= dim; ++v) {
+    heights[v] = planes.normals[0] * points[0][v] - planes.offsets;
+    for (int i = 1; i < dim; ++i) heights[v] += planes.normals[i] * points[i][v];
+  }
   return heights;
 }
 
-// The same, unless one of the planes has the whole shell more than `distance` above it: then returns false.
-template <int dim>
-bool heights_within(const Shell<dim>& planes, const Shell<dim>& of, double distance, Heights<dim>& heights) {
-  for (int f = 0; f < planes.faces; ++f) {
-    heights_above(planes, f, of, heights[f]);
-    double lowest = heights[f][0];
-    for (int v = 1; v <= dim; ++v) lowest = std::min(lowest, heights[f][v]);
-    if (lowest > distance) return false;
-  }
-  return true;
+// Does one of the planes have all of the points more than `distance` below them?
+template <std::size_t count>
+bool all_beyond_one(const std::array<Lanes, count>& heights, float distance) {
+  Lanes lowest = heights[0];
+  for (std::size_t v = 1; v < count; ++v) lowest = least(lowest, heights[v]);
+  return bits(lowest > distance) != 0;
 }
 
 // How the search looks at a face: how far it reaches, in characteristic lengths, and how far its semi-springs are moved.

@@ -1,7 +1,12 @@
 #include "contact/spring_search.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "contact/choice.h"
 #include "contact/touch.h"
@@ -11,105 +16,137 @@ namespace scree::contact {
 
 namespace {
 
-constexpr double margin = 1 + 1e-9;  // so that rounding dismisses nothing that touches
-
-// Is neither a vertex nor any semi-spring beside it further than reach beyond a plane of the other shell?
+// How many vertices of the owner are so little beyond all planes of the other shell that they or a semi-spring beside them may
+// touch? A semi-spring is no further from its vertex than the indentation times a diameter.
 template <int dim>
-bool may_reach(const Shell<dim>& owner, const Shell<dim>& other, const Heights<dim>& heights, int vertex, double indentation) {
-  const double reach = margin * owner.reach;
-  for (int t = 0; t < other.faces; ++t) {
-    const double height = heights[t][vertex];
-    if (height <= reach) continue;
-    const double lowest = *std::min_element(heights[t].begin(), heights[t].end());
-    if (height + indentation * (lowest - height) > reach) return false;
-  }
-  return true;
-}
-
-template <int dim>
-bool any_may_reach(const Shell<dim>& owner, const Shell<dim>& other, const Heights<dim>& heights, double indentation) {
-  for (int v = 0; v <= dim; ++v) {
-    if (may_reach(owner, other, heights, v, indentation)) return true;
-  }
-  return false;
+int vertices_within(const Shell<dim>& owner, const Heights<dim>& above_other, float rounding, float indentation) {
+  const float reach = owner.reach + rounding + 2 * indentation * owner.radius;
+  int count = 0;
+  for (const Lanes& height : above_other) count += bits(height > reach) == 0 ? 1 : 0;
+  return count;
 }
 
 // The semi-springs of one shell after the other.
 template <int dim>
 class ShellSprings {
  public:
-  ShellSprings(const Surface<dim>& surface, const ContactOptions& options) : surface_(surface), options_(options) {}
+  ShellSprings(const Surface<dim>& surface, const ContactOptions& options)
+      : surface_(surface),
+        options_(options),
+        kept_(static_cast<float>(1 - options.indentation)),
+        moved_(static_cast<float>(options.indentation / dim)) {}
 
   void begin() {
-    for (auto& places : possible_) places.clear();
+    for (Spring& spring : springs_) spring.clear();
+    for (Lanes& limit : limits_) limit = all_lanes(std::numeric_limits<float>::infinity());
   }
 
+  // Either the vertex or the semi-spring must be within reach of the target face, and so of all planes of its shell.
   void look_at(const Shell<dim>& owner, const Shell<dim>& other) {
-    const Heights<dim> heights = heights_above(other, owner);
-    std::array<bool, dim + 1> near;
-    for (int v = 0; v <= dim; ++v) near[v] = may_reach(owner, other, heights, v, options_.indentation);
-    for (int f = 0; f < owner.faces; ++f) {
-      for (int c = 0; c < dim; ++c) {
-        if (near[owner.corners[f][c]]) look_at_spring(owner, other, heights, f, c);
+    const Way<dim> way(owner, other);
+    View view{owner, other, way.rounding, heights_above<dim>(other, vertices_back(owner, way)), {}};
+    const auto& heights = view.heights;
+    view.sum = heights[0];
+    for (int v = 1; v <= dim; ++v) view.sum += heights[v];
+    // The same by planes, with a lane for every vertex: how far each vertex and each semi-spring is beyond any of them.
+    const auto by_plane = transposed(heights[0], heights[1], heights[2], heights[dim == 2 ? 0 : 3]);
+    Lanes vertex_beyond{};
+    for (const Lanes& above : by_plane) vertex_beyond = most(vertex_beyond, above);
+    std::array<Lanes, dim + 1> spring_beyond{};  // of each face
+    for (int t = 0; t <= dim; ++t) {
+      const Lanes kept = kept_ * by_plane[t];
+      const Lanes centres = moved_ * (view.sum[t] - by_plane[t]);
+      for (int f = 0; f <= dim; ++f) spring_beyond[f] = most(spring_beyond[f], kept + centres[f]);
+    }
+    for (int f = 0; f <= dim; ++f) {
+      if ((owner.faces >> f & 1u) == 0) continue;
+      const LaneMask may_touch = least(vertex_beyond, spring_beyond[f]) <= owner.reach + way.rounding;
+      const LaneMask may_win = spring_beyond[f] - way.rounding <= limits_[f];
+      unsigned near = bits(may_touch & may_win) & ~(1u << f) & ((1u << (dim + 1)) - 1);
+      for (; near != 0; near &= near - 1) {
+        const int v = std::countr_zero(near);
+        look_at_spring(view, f, v, vertex_beyond[v], spring_beyond[f][v]);
       }
     }
   }
 
-  // Of the semi-spring of a corner of a face of the shell. A face whose lower bound is above the least distance found has no
-  // part in the choice.
-  FaceId target_of(const Shell<dim>& owner, int face, int corner) {
-    auto& places = possible_[face * dim + corner];
-    if (places.empty()) return {};
-    std::sort(places.begin(), places.end(),
-              [](const Place& a, const Place& b) { return a.bound < b.bound || (a.bound == b.bound && a.target < b.target); });
-    candidates_.clear();
-    const FaceId own = owner.face(face);
-    const double equal = equal_distance * surface_.lengths[own];
-    double least = std::numeric_limits<double>::infinity();
-    for (const Place& place : places) {
-      if (place.bound > least + 2 * equal) break;
-      const auto touch = touch_face(surface_, options_, own, corner, place.target);
-      if (!touch) continue;
-      candidates_.push_back({place.target, std::abs(touch->gap), -touch->facing});
-      least = std::min(least, candidates_.back().distance);
+  // The target of the semi-spring of face f at vertex v. No semi-spring is nearer to a face than its bound: once one is
+  // touched, those that cannot beat it need no look.
+  FaceId target_of(const Shell<dim>& owner, int f, int v) {
+    auto& [possible, touched] = springs_[f * (dim + 1) + v];
+    while (!possible.empty()) {
+      const auto nearest = std::min_element(possible.begin(), possible.end(),
+                                            [](const Possible& a, const Possible& b) { return a.bound < b.bound; });
+      if (nearest->bound > limits_[f][v]) break;
+      touch(owner, f, v, nearest->target);
+      *nearest = possible.back();
+      possible.pop_back();
     }
-    return choose(candidates_, equal);
+    return choose(touched, equal_distance * surface_.lengths[owner.face(f)]);
   }
 
  private:
-  struct Place {
-    double bound;  // the semi-spring is no nearer [m]
+  struct Possible {
+    float bound;  // the semi-spring is no nearer [m]
     FaceId target;
   };
+  struct Spring {
+    std::vector<Possible> possible;
+    std::vector<Candidate<FaceId>> touched;
 
-  // Either the vertex or the semi-spring must be within reach of the target face, and so of all planes of its shell.
-  void look_at_spring(const Shell<dim>& owner, const Shell<dim>& other, const Heights<dim>& heights, int face, int corner) {
-    const auto& corners = owner.corners[face];
-    const int vertex = corners[corner];
-    const double reach = margin * owner.reach;
-    std::array<double, dim + 1> springs;
-    double vertex_beyond = 0, spring_beyond = 0;
-    for (int t = 0; t < other.faces; ++t) {
-      double mean = 0;
-      for (const int c : corners) mean += heights[t][c] / dim;
-      springs[t] = heights[t][vertex] + options_.indentation * (mean - heights[t][vertex]);
-      vertex_beyond = std::max(vertex_beyond, heights[t][vertex]);
-      spring_beyond = std::max(spring_beyond, springs[t]);
+    void clear() {
+      possible.clear();
+      touched.clear();
     }
-    if (vertex_beyond > reach && spring_beyond > reach) return;
-    for (int t = 0; t < other.faces; ++t) {
-      if (owner.normals[face].dot(other.normals[t]) >= 0) continue;
-      const double vertex_away = std::max(vertex_beyond, std::abs(heights[t][vertex]));
-      const double spring_away = std::max(spring_beyond, std::abs(springs[t]));
-      if (vertex_away > reach && spring_away > reach) continue;
-      possible_[face * dim + corner].push_back({spring_away, other.face(t)});
+  };
+
+  // Another shell as seen from the owner's.
+  struct View {
+    const Shell<dim>& owner;
+    const Shell<dim>& other;
+    float rounding;
+    Heights<dim> heights;  // of the owner's vertices above the other's planes
+    Lanes sum;             // of them all
+  };
+
+  void look_at_spring(const View& view, int f, int v, float vertex_beyond, float spring_beyond) {
+    const auto& [owner, other, rounding, heights, sum] = view;
+    Lanes cosine = owner.normals[0][f] * other.normals[0];
+    for (int i = 1; i < dim; ++i) cosine += owner.normals[i][f] * other.normals[i];
+    const Lanes spring = kept_ * heights[v] + moved_ * (sum - heights[f]);
+    const Lanes vertex_away = most(absolute(heights[v]), all_lanes(vertex_beyond));
+    const Lanes spring_away = most(absolute(spring), all_lanes(spring_beyond));
+    constexpr float cosine_rounding = 1e-6F;
+    const LaneMask near = (least(vertex_away, spring_away) <= owner.reach + rounding) & (cosine < cosine_rounding);
+    for (unsigned found = bits(near) & other.faces; found != 0; found &= found - 1) {
+      const int t = std::countr_zero(found);
+      const float bound = spring_away[t] - rounding;
+      if (bound > 0) {
+        springs_[f * (dim + 1) + v].possible.push_back({bound, other.face(t)});
+      } else {
+        touch(owner, f, v, other.face(t));  // nothing can be nearer
+      }
     }
+  }
+
+  void touch(const Shell<dim>& owner, int f, int v, FaceId target) {
+    const FaceId own = owner.face(f);
+    const auto& corners = mesh::opposite_corners<dim>[f];
+    const auto corner = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+    const auto touch = touch_face(surface_, options_, own, corner, target);
+    if (!touch) return;
+    const double distance = std::abs(touch->gap);
+    springs_[f * (dim + 1) + v].touched.push_back({target, distance, -touch->facing});
+    constexpr double rounding = 1 + 1e-6;
+    const double limit = rounding * (distance + 2 * equal_distance * surface_.lengths[own]);
+    limits_[f][v] = std::min(limits_[f][v], static_cast<float>(limit));
   }
 
   const Surface<dim>& surface_;
   const ContactOptions& options_;
-  std::array<std::vector<Place>, (dim + 1) * dim> possible_;  // of each semi-spring of the shell
-  std::vector<Candidate<FaceId>> candidates_;
+  float kept_, moved_;                                 // shares of the vertex and of each corner of its face in a semi-spring
+  std::array<Spring, (dim + 1) * (dim + 1)> springs_;  // of each face and vertex
+  std::array<Lanes, dim + 1> limits_;                  // what is further from a semi-spring is not its target, likewise [m]
 };
 
 }  // namespace
@@ -120,28 +157,36 @@ SpringSearch<dim>::SpringSearch(const Surface<dim>& surface, const ContactOption
 
 template <int dim>
 void SpringSearch<dim>::look_at(std::size_t chunk, const ShellPair<dim>& pair) {
-  if (any_may_reach(pair.first, pair.second, pair.above_second, options_.indentation)) {
-    near_[chunk].emplace_back(pair.first_place, pair.second_place);
-  }
-  if (any_may_reach(pair.second, pair.first, pair.above_first, options_.indentation)) {
-    near_[chunk].emplace_back(pair.second_place, pair.first_place);
-  }
+  const auto indentation = static_cast<float>(options_.indentation);
+  const float rounding = pair.way.rounding;
+  const std::uint32_t one = pair.first_place, other = pair.second_place;
+  add(chunk, one, other, vertices_within<dim>(pair.first, pair.above_second, rounding, indentation));
+  add(chunk, other, one, vertices_within<dim>(pair.second, pair.above_first, rounding, indentation));
+}
+
+template <int dim>
+void SpringSearch<dim>::add(std::size_t chunk, std::uint32_t own, std::uint32_t other, int vertices) {
+  if (vertices > 0) near_[chunk].push_back({own, {other & 0x7fffffffu, vertices >= dim ? 1u : 0u}});
 }
 
 // Sorts the others by shell.
 template <int dim>
 void SpringSearch<dim>::link() {
-  starts_.assign(table_.shells.size() + 1, 0);
-  for (const auto& part : near_) {
-    for (const auto& [own, other] : part) ++starts_[own + 1];
-  }
-  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  const auto for_all = [&](const auto& enter) {
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      for (const auto& [own, other] : near_[i]) enter(own, other);
+    }
+  };
+  // Each start is counted two places on and moves one on while it is filled in.
+  starts_.assign(table_.shells.size() + 2, 0);
+  const auto next = [&](std::uint32_t shell) {
+    return std::atomic_ref(starts_[shell]).fetch_add(1, std::memory_order_relaxed);
+  };
+  for_all([&](std::uint32_t own, Other) { next(own + 2); });
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   others_.resize(starts_.back());
-  for (const auto& part : near_) {
-    for (const auto& [own, other] : part) others_[starts_[own]++] = other;
-  }
-  for (std::size_t i = starts_.size() - 1; i > 0; --i) starts_[i] = starts_[i - 1];
-  starts_[0] = 0;
+  for_all([&](std::uint32_t own, Other other) { others_[next(own + 1)] = other; });
   near_ = {};
 }
 
@@ -154,9 +199,15 @@ std::vector<FaceId> SpringSearch<dim>::targets() {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const Shell<dim>& owner = table_.shells[i];
       springs.begin();
-      for (std::size_t n = starts_[i]; n < starts_[i + 1]; ++n) springs.look_at(owner, table_.shells[others_[n]]);
-      for (int f = 0; f < owner.faces; ++f) {
-        for (int c = 0; c < dim; ++c) targets[owner.face(f).index() * dim + c] = springs.target_of(owner, f, c);
+      for (const unsigned close : {1u, 0u}) {
+        for (std::size_t n = starts_[i]; n < starts_[i + 1]; ++n) {
+          if (others_[n].close == close) springs.look_at(owner, table_.shells[others_[n].place]);
+        }
+      }
+      for (int f = 0; f <= dim; ++f) {
+        if ((owner.faces >> f & 1u) == 0) continue;
+        FaceId* target = &targets[owner.face(f).index() * dim];
+        for (const int v : mesh::opposite_corners<dim>[f]) *target++ = springs.target_of(owner, f, v);
       }
     }
   });

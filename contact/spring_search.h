@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "contact/find_contacts.h"
@@ -23,16 +22,26 @@ class SpringSearch {
   [[nodiscard]] std::vector<FaceId> targets();
 
  private:
-  using Places = std::pair<std::uint32_t, std::uint32_t>;  // of a shell whose semi-springs may touch, and of the other
-
   void link();
 
   const Surface<dim>& surface_;  // of the caller, who keeps them
   const ContactOptions& options_;
   const ShellTable<dim>& table_;
-  std::vector<std::vector<Places>> near_;  // of each chunk
-  std::vector<std::size_t> starts_;        // of each shell in `others_`
-  std::vector<std::uint32_t> others_;
+  // A shell that semi-springs may touch.
+  struct Other {
+    std::uint32_t place : 31;
+    std::uint32_t
+        close : 1;  // a whole face may: such shells are looked at first, and often leave the others out of the running
+  };
+  struct Near {
+    std::uint32_t own;
+    Other other;
+  };
+  void add(std::size_t chunk, std::uint32_t own, std::uint32_t other, int vertices);
+
+  std::vector<std::vector<Near>> near_;  // of each chunk
+  std::vector<std::uint32_t> starts_;    // of each shell in others_, and the end
+  std::vector<Other> others_;            // in no order of note
 };
 
 }  // namespace scree::contact

@@ -85,10 +85,9 @@ std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk 
   return edges;
 }
 
-void add_edges(const std::vector<std::size_t>& starts, Surface<3>& surface) {
+void add_edges(const std::vector<std::size_t>& starts, const std::vector<Chunk>& blocks, Surface<3>& surface) {
   surface.face_edges = Table<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
-  const std::size_t blocks = surface.mesh.blocks.size();
-  std::vector<std::vector<SurfaceEdge>> parts(chunk_count(blocks));
+  std::vector<std::vector<SurfaceEdge>> parts(blocks.size());
   for_chunks(blocks, [&](Chunk chunk) { parts[chunk.number] = edges_of(starts, chunk, surface); });
   std::vector<std::size_t> before(parts.size() + 1, 0);
   for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
@@ -129,14 +128,15 @@ Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
   surface.lengths = Table<FaceId, double>(count);
   surface.node_normals = Table<NodeId, Point<dim>>(mesh.nodes.size(), Point<dim>::Zero());
   const std::vector<std::size_t> starts = block_starts(surface);
+  const std::vector<Chunk> blocks = chunks_by_size(starts, chunk_size);
   for_chunks(count, [&](Chunk faces) {
     for (std::size_t f = faces.begin; f < faces.end; ++f) measure_face<dim>(FaceId{f}, surface);
   });
   // Faces of two blocks have no node in common.
-  for_chunks(mesh.blocks.size(), [&](Chunk blocks) {
-    for (std::size_t f = starts[blocks.begin]; f < starts[blocks.end]; ++f) add_node_normals<dim>(FaceId{f}, surface);
+  for_chunks(blocks, [&](Chunk chunk) {
+    for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) add_node_normals<dim>(FaceId{f}, surface);
   });
-  if constexpr (dim == 3) add_edges(starts, surface);
+  if constexpr (dim == 3) add_edges(starts, blocks, surface);
   return surface;
 }
 

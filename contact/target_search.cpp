@@ -1,4 +1,5 @@
 #include "contact/target_search.h"
+#include <cstdio>
 
 #include "contact/edge_search.h"
 #include "contact/near_shells.h"
@@ -15,7 +16,7 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) { springs.look_at(chunk, pair); });
     targets.of_springs = springs.targets();
   } else {
-    EdgeSearch edges(surface, options, table.shells.size());
+    EdgeSearch edges(surface, options, table);
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
       springs.look_at(chunk, pair);
       edges.look_at(chunk, pair);

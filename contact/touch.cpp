@@ -1,6 +1,8 @@
 #include "contact/touch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/segment.h"
 #include "contact/semi_edge.h"
@@ -29,6 +31,19 @@ double rise(const Surface<3>& surface, FaceId face, const SurfaceEdge& edge, con
 bool stands_out(const Surface<3>& surface, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
   return rise(surface, edge.faces[0], edge, direction) <= flat_sine &&
          rise(surface, edge.faces[1], edge, direction) <= flat_sine;
+}
+
+// Does what these points span come within a distance of the face's plane?
+template <std::size_t count>
+bool comes_near(const Surface<3>& surface, FaceId face, const std::array<Point<3>, count>& points, double distance) {
+  const Point<3>& corner = surface.mesh.nodes[surface.faces[face].nodes[0]];
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Point<3>& point : points) {
+    const double height = surface.normals[face].dot(point - corner);
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  return low <= distance && high >= -distance;
 }
 
 }  // namespace
@@ -78,9 +93,16 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   const double tolerance = options.tolerance * surface.lengths[owner];
   const SurfaceEdge& other = surface.edges[target];
   const Corners<3> own = corners_of(surface, owner);
+  const Point<3>&target_start = surface.mesh.nodes[other.nodes[0]], &target_end = surface.mesh.nodes[other.nodes[1]];
+  // The lines may come within tolerance beyond the end of an edge, where there is nothing: then one of these is too far off.
+  const FaceId beside = other.faces[0];
+  const double reach = options.tolerance * std::max(surface.lengths[owner], surface.lengths[beside]);
+  if (!comes_near<2>(surface, owner, {target_start, target_end}, tolerance)) return std::nullopt;
+  if (!comes_near<3>(surface, beside, own, reach)) return std::nullopt;
+
   const Point<3> start = weighted_point<3>(own, semi_edge_weights(side, 0, options.indentation));
   const Point<3> end = weighted_point<3>(own, semi_edge_weights(side, 1, options.indentation));
-  const auto crossing = line_crossing(start, end, surface.mesh.nodes[other.nodes[0]], surface.mesh.nodes[other.nodes[1]]);
+  const auto crossing = line_crossing(start, end, target_start, target_end);
   if (!crossing || crossing->along_a < 0 || crossing->along_a > 1 || crossing->along_b < 0 || crossing->along_b > 1) {
     return std::nullopt;
   }
@@ -90,8 +112,8 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
 
   // The edge itself is parallel to its semi-edge, so one normal measures both gaps.
-  const double gap = direction.dot(start - surface.mesh.nodes[other.nodes[0]]);
-  const double true_gap = direction.dot(own[side] - surface.mesh.nodes[other.nodes[0]]);
+  const double gap = direction.dot(start - target_start);
+  const double true_gap = direction.dot(own[side] - target_start);
   if (std::abs(gap) > tolerance && std::abs(true_gap) > tolerance) return std::nullopt;
 
   const SurfaceEdge& own_edge = surface.edges[surface.face_edges[owner][side]];

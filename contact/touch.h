@@ -33,7 +33,8 @@ struct EdgeTouch {
 };
 
 // Touching means: the semi-edge crosses the target edge between the ends of both, the strip between the semi-edge and the edge
-// it stands for is within tolerance of it, and along the gap both edges stand out from their blocks.
+// it stands for is within tolerance of it, and along the gap both edges stand out from their blocks. The target edge must come
+// within tolerance of the owner's face, and that face within the larger tolerance of the first face at the target edge.
 std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
                                     EdgeId target);
 

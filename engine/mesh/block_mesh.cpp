@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "engine/base/chunks.h"
 #include "engine/mesh/lone_faces.h"
 
 namespace scree::mesh {
 
 namespace {
 
-// The corners of the face opposite to `corner`, ordered so that the normal points out of a positive element.
 template <int dim>
 std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element, int corner) {
-  if constexpr (dim == 2) {
-    return {element[(corner + 1) % 3], element[(corner + 2) % 3]};
-  } else {
-    static constexpr int order[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    return {element[order[corner][0]], element[order[corner][1]], element[order[corner][2]]};
-  }
+  std::array<NodeId, dim> nodes;
+  for (int i = 0; i < dim; ++i) nodes[i] = element[opposite_corners<dim>[corner][i]];
+  return nodes;
 }
 
 }  // namespace
@@ -45,9 +44,19 @@ void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId id, Table<FaceId, Fa
 
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh) {
-  Table<FaceId, Face<dim>> faces;
-  for (const BlockId block : mesh.blocks.ids()) add_boundary_faces(mesh, block, faces);
-  return faces;
+  std::vector<std::size_t> ends{0};
+  for (const Block& block : mesh.blocks) ends.push_back(ends.back() + block.elements.size());
+  const std::vector<Chunk> chunks = chunks_by_size(ends, chunk_size);
+  std::vector<Table<FaceId, Face<dim>>> parts(chunks.size());
+  for_chunks(chunks, [&](Chunk chunk) {
+    for (std::size_t b = chunk.begin; b < chunk.end; ++b) add_boundary_faces(mesh, BlockId{b}, parts[chunk.number]);
+  });
+  std::vector<Face<dim>> faces;
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  faces.reserve(count);
+  for (const auto& part : parts) faces.insert(faces.end(), part.begin(), part.end());
+  return Table<FaceId, Face<dim>>(std::move(faces));
 }
 
 template <int dim>

@@ -74,6 +74,15 @@ struct Face {
   BlockId block;
 };
 
+// Of each corner of an element the corners of the face opposite to it, ordered so that its normal points out of a positive
+// element.
+template <int dim>
+inline constexpr std::array<std::array<int, dim>, dim + 1> opposite_corners;
+template <>
+inline constexpr std::array<std::array<int, 2>, 3> opposite_corners<2> = {{{1, 2}, {2, 0}, {0, 1}}};
+template <>
+inline constexpr std::array<std::array<int, 3>, 4> opposite_corners<3> = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
 // Every face that belongs to one element only, ordered by block, element and opposite corner.
 template <int dim>
 Table<FaceId, Face<dim>> boundary_faces(const BlockMesh<dim>& mesh);

@@ -15,34 +15,32 @@ namespace scree::mesh {
 template <std::size_t corners, class ForEachFace>
 std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_each_face) {
   using Face = std::array<std::uint32_t, corners>;
-  struct Use {
+  struct Entry {
     std::array<std::uint32_t, corners - 1> others;  // than the least node
     std::uint32_t place;
-
-    auto operator<=>(const Use&) const = default;
   };
-  std::vector<std::uint32_t> begin(nodes + 1, 0);  // of each least node's uses, and the end
+  std::vector<std::uint32_t> begin(nodes + 1, 0);  // of each least node's entries, and the end
   for_each_face([&](const Face& face) { ++begin[face.front() + 1]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Use> uses(begin.back());
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  std::uint32_t place = 0;
+  std::vector<Entry> entries(begin.back());  // each face once, as it comes first
+  std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+  std::vector<char> lone(begin.back(), true);
+  std::uint32_t places = 0;
   for_each_face([&](const Face& face) {
-    Use& use = uses[next[face.front()]++];
-    std::copy(face.begin() + 1, face.end(), use.others.begin());
-    use.place = place++;
+    Entry entry{{}, places++};
+    std::copy(face.begin() + 1, face.end(), entry.others.begin());
+    const auto first = entries.begin() + begin[face.front()], last = entries.begin() + end[face.front()];
+    const auto same = std::find_if(first, last, [&](const Entry& other) { return other.others == entry.others; });
+    if (same == last) {
+      entries[end[face.front()]++] = entry;
+    } else {
+      lone[same->place] = lone[entry.place] = false;
+    }
   });
   std::vector<std::uint32_t> alone;
-  for (std::size_t node = 0; node < nodes; ++node) {
-    const auto first = uses.begin() + begin[node], last = uses.begin() + begin[node + 1];
-    std::sort(first, last);
-    for (auto use = first; use != last;) {
-      const auto other = std::find_if(use, last, [&](const Use& u) { return u.others != use->others; });
-      if (other == use + 1) alone.push_back(use->place);
-      use = other;
-    }
+  for (std::uint32_t place = 0; place < places; ++place) {
+    if (lone[place]) alone.push_back(place);
   }
-  std::sort(alone.begin(), alone.end());
   return alone;
 }
 

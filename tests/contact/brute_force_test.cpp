@@ -207,6 +207,17 @@ double rise(const Simplex<3>& simplex, int a, int b, const Point<3>& direction) 
   return highest;
 }
 
+// Of the two faces at an edge of a block the one that the mesh lists first, as the corner opposite to it. A mesh exchanges the
+// first two corners of a simplex that is turned inside out.
+int first_face(const Simplex<3>& simplex, std::array<int, 2> edge) {
+  const bool turned = (simplex[1] - simplex[0]).cross(simplex[2] - simplex[0]).dot(simplex[3] - simplex[0]) < 0;
+  for (int corner : {0, 1, 2, 3}) {
+    if (turned && corner < 2) corner = 1 - corner;
+    if (corner != edge[0] && corner != edge[1]) return corner;
+  }
+  return -1;
+}
+
 // The gap of the semi-edge beside edge (a, b) of `owner`, on the face opposite to `opposite`, over edge (c, d) of `target`.
 std::optional<double> edge_gap(const Simplex<3>& owner, int opposite, std::array<int, 2> ab, const Simplex<3>& target,
                                std::array<int, 2> cd, ContactOptions options) {
@@ -225,6 +236,23 @@ std::optional<double> edge_gap(const Simplex<3>& owner, int opposite, std::array
   const double tolerance = options.tolerance * mean_edge<3>(owner);
   if (std::min(std::abs(gap), std::abs(true_gap)) > tolerance) return std::nullopt;
   if (direction.dot(normal<3>(owner, opposite)) > -facing) return std::nullopt;
+  // The target edge comes within tolerance of the owner's face, and that face of the first face at the target edge.
+  const auto away = [](const Simplex<3>& of, int face, const auto& points) {
+    double low = 1e300, high = -1e300;
+    for (const Point<3>& point : points) {
+      const double height = normal<3>(of, face).dot(point - of[(face + 1) % 4]);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    return std::max(low, -high);
+  };
+  std::vector<Point<3>> face;
+  for (int i = 0; i < 4; ++i) {
+    if (i != opposite) face.push_back(owner[i]);
+  }
+  const double reach = options.tolerance * std::max(mean_edge<3>(owner), mean_edge<3>(target));
+  if (away(owner, opposite, std::vector<Point<3>>{c, d}) > tolerance) return std::nullopt;
+  if (away(target, first_face(target, cd), face) > reach) return std::nullopt;
   if (rise(target, cd[0], cd[1], direction) > 0.0175 || rise(owner, ab[0], ab[1], -direction) > 0.0175) return std::nullopt;
   return gap;
 }
