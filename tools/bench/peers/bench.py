@@ -141,15 +141,16 @@ def between(rows, error):
     return {"processor": low["processor"] ** (1 - part) * high["processor"] ** part}
 
 
-def ratios(rows, size):
-    """The fastest peer's seconds over Scree's, at the error of every peer that no other peer beats in both; for each size and over all.
+def ratios(rows, size, finer):
+    """The fastest peer's seconds over Scree's, at the error of every peer that no other peer beats in both; for each size and, where larger is
+    `finer` and not more work, over all.
 
     Both sides count with their cheapest row whose error is no larger, so that only what was run counts; `interpolated` asks what Scree would
     take for the peer's error. Scree is the program "Scree"; its variants are neither side. Where it does not get to an error the ratio is
     empty.
     """
     result = []
-    for only in [*sorted({row[size] for row in rows}), "any"]:
+    for only in [*sorted({row[size] for row in rows}), *(["any"] if finer else [])]:
         here = [row for row in rows if only in (row[size], "any")]
         ours = [row for row in here if row["program"] == "Scree"]
         peers = [row for row in here if not row["program"].startswith("Scree")]
@@ -175,10 +176,10 @@ def print_ratios(found, size):
         print(f"  {size} {row[size]}: error {row['error']:.3g} by {row['peer']} ({row[f'peer_{size}']} {size}); Scree {row['scree']}: {numbers}")
 
 
-def finish(name, rows, size, arguments, title, error):
-    """The tables, the record and the plot of a benchmark whose rows state an error."""
+def finish(name, rows, size, arguments, title, error, finer=False):
+    """The tables, the record and the plot of a benchmark whose rows state an error; `finer`: larger sizes do the same work more exactly."""
     write_table(rows, arguments.out / f"{name}.csv")
-    found = ratios(rows, size)
+    found = ratios(rows, size, finer)
     if found:
         write_table(found, arguments.out / f"{name}_ratios.csv")
         print_ratios(found, size)
