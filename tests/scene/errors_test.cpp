@@ -139,6 +139,9 @@ TEST(SceneErrors, HeatNamesBodiesOfTheScene) {
 TEST(SceneErrors, BlocksAreLumpedByKnownModelsInBodiesOfTheScene) {
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: lumpd}"}),
             "--set heat.blocks: heat.blocks.model is lumpd (must be one of meshed, lumped, auto). Did you mean lumped?");
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: lumped, largest_biot: 0.1}"}),
+            "--set heat.blocks: heat.blocks.largest_biot is 0.1 (decides nothing where no block is auto). Take it out, or set "
+            "heat.blocks.model to auto");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: auto, largest_biot: -0.1}"}),
             "--set heat.blocks: heat.blocks.largest_biot is -0.1 (must be not negative). Did you mean 0.1?");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={bodies: {blok: lumped}}"}),

@@ -189,6 +189,15 @@ thermal::BlockOptions read_blocks(const Checked& heat, const Names& names, Probl
     const BodyId body{static_cast<std::size_t>(place - names.bodies.begin())};
     options.of_body[body] = read_block_model(entry.value.text);
   }
+  const auto is_automatic = [](const auto& chosen) { return chosen.second == thermal::BlockModel::automatic; };
+  const bool any_automatic = options.model == thermal::BlockModel::automatic ||
+                             std::any_of(options.of_body.begin(), options.of_body.end(), is_automatic);
+  // A scene with its defaults filled in may be read again.
+  const bool own_limit = options.largest_biot != thermal::BlockOptions{}.largest_biot;
+  if (const Checked& biot = blocks->at("largest_biot"); own_limit && !any_automatic) {
+    problems.push_back(biot.problem(fmt::format("{:g}", biot.number()), "decides nothing where no block is auto",
+                                    "Take it out, or set heat.blocks.model to auto"));
+  }
   if (!options.all_meshed() && heat.find("effective_conductivity") != nullptr) {
     problems.push_back(blocks->problem("lumped or auto", "must be meshed for heat.effective_conductivity",
                                        "The flux inside the blocks is what it measures: take heat.blocks out"));
