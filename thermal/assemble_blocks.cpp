@@ -58,10 +58,11 @@ template <int dim>
 struct Pieces {
   const mesh::BlockMesh<dim>& mesh;
   Table<BlockId, Tensor<dim>> conductivity;
+  SpaceOrder order;
   RepeatedCells<dim> repeated;
 
-  Pieces(const mesh::BlockMesh<dim>& all, const Table<MaterialId, Material>& materials)
-      : mesh(all), conductivity(conductivities(all, materials)), repeated(all, conductivity) {}
+  Pieces(const mesh::BlockMesh<dim>& all, const Table<MaterialId, Material>& materials, SpaceOrder space_order)
+      : mesh(all), conductivity(conductivities(all, materials)), order(space_order), repeated(all, conductivity, order) {}
 
   // Calls `use` with what the node has of a cell, and the cell.
   template <class Use>
@@ -72,7 +73,7 @@ struct Pieces {
     if (const auto* known = repeated.find(CellId(cell))) {
       use((*known)[at], corners);
     } else {
-      use(corner_of_cell<dim>(corners.kind, cell_points(mesh, corners), conductivity[block], at), corners);
+      use(corner_of_cell<dim>(corners.kind, cell_points(mesh, corners), conductivity[block], at, order), corners);
     }
   }
 
@@ -89,6 +90,14 @@ struct Pieces {
   }
 };
 
+// Which of the matrices is put together: K of constant conductivities, U of the others, or B.
+enum class Which { constant, unit, shared };
+
+// Of each entry of B: density times specific heat [J/m3/K].
+double heat_per_volume(const Material& material, double temperature) {
+  return *material.density * (*material.specific_heat)(temperature);
+}
+
 // A run of rows as it grows.
 struct Chunk {
   std::vector<int> columns;
@@ -103,14 +112,15 @@ class RowSum {
   RowSum(const Pieces<dim>& pieces, const Incidence<dim>& incidence)
       : pieces_(pieces), incidence_(incidence), slot_(pieces.mesh.nodes.size(), -1) {}
 
-  // Appends the row of a node of the block.
-  void append(int node, BlockId block, Chunk& chunk) {
+  // Appends the row of a node of the block: `entries` of its corners of cells, times `factor`.
+  void append(int node, BlockId block, std::array<double, 8> CornerOfCell::*entries, double factor, Chunk& chunk) {
     row_.clear();
     for (std::uint32_t k = incidence_.begin[node]; k < incidence_.begin[node + 1]; ++k) {
       if (has_cells(pieces_.mesh, block)) {
         pieces_.corner(incidence_.of_node[k], node, block, [&](const CornerOfCell& corner, const mesh::Cell& cell) {
           for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) {
-            if (corner.conductance[i] != 0) add(cell.nodes[i].value(), corner.conductance[i]);
+            const double entry = (corner.*entries)[i];
+            if (entry != 0) add(cell.nodes[i].value(), entry);
           }
         });
       } else {
@@ -120,7 +130,7 @@ class RowSum {
     std::sort(row_.begin(), row_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
     for (const Entry& entry : row_) {
       chunk.columns.push_back(entry.column);
-      chunk.values.push_back(entry.value);
+      chunk.values.push_back(factor * entry.value);
       slot_[entry.column] = -1;
     }
   }
@@ -168,10 +178,10 @@ SparseMatrix joined(const std::vector<Chunk>& chunks, Eigen::Index size) {
   return matrix;
 }
 
-// The rows of the nodes whose block's conductivity varies, or of the others; the rest are empty.
+// The rows of the nodes that have any in this matrix; the rest are empty.
 template <int dim>
 SparseMatrix rows_of(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const HeatModel& model,
-                     const Incidence<dim>& incidence, bool varying) {
+                     const Incidence<dim>& incidence, Which which) {
   const mesh::BlockMesh<dim>& mesh = pieces.mesh;
   const auto size = static_cast<int>(mesh.nodes.size());
   std::vector<Chunk> chunks(static_cast<std::size_t>((size + rows_in_chunk - 1) / rows_in_chunk));
@@ -183,8 +193,12 @@ SparseMatrix rows_of(const Pieces<dim>& pieces, const Table<MaterialId, Material
       const int first = static_cast<int>(c) * rows_in_chunk;
       for (int node = first; node < std::min(size, first + rows_in_chunk); ++node) {
         const BlockId block = model.blocks[NodeId(static_cast<std::size_t>(node))];
-        const bool varies = materials[mesh.bodies[mesh.blocks[block].body].material].conductivity->varies();
-        if (varies == varying) sum.append(node, block, chunks[c]);
+        const Material& material = materials[mesh.bodies[mesh.blocks[block].body].material];
+        if (which == Which::shared) {
+          sum.append(node, block, &CornerOfCell::shared, heat_per_volume(material, model.initial[node]), chunks[c]);
+        } else if (material.conductivity->varies() == (which == Which::unit)) {
+          sum.append(node, block, &CornerOfCell::conductance, 1, chunks[c]);
+        }
         chunks[c].ends.push_back(static_cast<int>(chunks[c].columns.size()));
       }
     }
@@ -218,17 +232,19 @@ void set_capacities(const Pieces<dim>& pieces, const Table<MaterialId, Material>
 }  // namespace
 
 template <int dim>
-SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
+SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, SpaceOrder order,
+                             HeatModel& model) {
   const Incidence<dim> incidence(mesh, model.lumped);
-  const Pieces<dim> pieces(mesh, materials);
+  const Pieces<dim> pieces(mesh, materials, order);
   set_capacities(pieces, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
                                       [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
-  if (any_varies) model.varying->unit_conductance = rows_of(pieces, materials, model, incidence, true);
-  return rows_of(pieces, materials, model, incidence, false);
+  if (any_varies) model.varying->unit_conductance = rows_of(pieces, materials, model, incidence, Which::unit);
+  if (order == SpaceOrder::fourth) model.shared_capacity = rows_of(pieces, materials, model, incidence, Which::shared);
+  return rows_of(pieces, materials, model, incidence, Which::constant);
 }
 
-template SparseMatrix assemble_blocks<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, HeatModel&);
-template SparseMatrix assemble_blocks<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&, HeatModel&);
+template SparseMatrix assemble_blocks<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, SpaceOrder, HeatModel&);
+template SparseMatrix assemble_blocks<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&, SpaceOrder, HeatModel&);
 
 }  // namespace scree::thermal

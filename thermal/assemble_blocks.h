@@ -8,8 +8,10 @@
 namespace scree::thermal {
 
 // Fills in the capacities (and masses, if they vary) of the model, which has its initial temperatures; returns K of the
-// blocks with a constant conductivity, and sets U of the others where there are any. The rows of lumped blocks stay empty.
+// blocks with a constant conductivity, and sets U of the others where there are any, and B in fourth order.
+// The rows of lumped blocks stay empty.
 template <int dim>
-SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model);
+SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, SpaceOrder order,
+                             HeatModel& model);
 
 }  // namespace scree::thermal

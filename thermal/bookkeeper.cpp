@@ -16,17 +16,24 @@ void enter(const std::vector<double>& heat, std::vector<double>& entries, double
 
 }  // namespace
 
-Bookkeeper::Bookkeeper(const HeatModel& model, Sums sums) : model_(model), drives_(model), balance_(model, sums) {}
+Bookkeeper::Bookkeeper(const HeatModel& model, Sums sums) : model_(model), drives_(model), balance_(model, sums) {
+  if (model.shared_capacity) shares_.emplace(model);
+}
 
 Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   Ledger ledger;
   ledger.by_boundary.assign(model_.holds.size(), 0.0);
   ledger.by_applied.assign(model_.loads.size(), 0.0);
   ledger.by_surroundings.assign(model_.exchanges.size(), 0.0);
-  for (const NodeId node : model_.fixed_nodes) {
+  const auto jump = [&](NodeId node) {
     const double stored = balance_.stored_at(node, model_.initial, temperature);
     ledger.start_jump += stored;
     ledger.turnover += std::abs(stored);
+  };
+  if (shares_) {  // the jump reaches nodes beside the fixed ones
+    for (const NodeId node : model_.blocks.ids()) jump(node);
+  } else {
+    for (const NodeId node : model_.fixed_nodes) jump(node);
   }
   ledger.stored = balance_.stored_in_all(model_.initial, temperature);
   return ledger;
@@ -43,7 +50,8 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
-    const Eigen::VectorXd heating = balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
+    Eigen::VectorXd heating = balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
+    if (shares_) heating += shares_->shares(balance_, stage.temperature, drive);
     for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
       held[model_.fixed_hold[i]] -= duration * heating[static_cast<Eigen::Index>(i)];
     }

@@ -1,6 +1,7 @@
 // Writes a step's flows into the ledger.
 #pragma once
 
+#include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
 #include "thermal/time_scheme.h"
@@ -11,7 +12,7 @@ class Bookkeeper {
  public:
   explicit Bookkeeper(const HeatModel& model, Sums sums = Sums::extended);  // refers to it
 
-  // A ledger in which nothing has flowed but what brings the fixed nodes to `temperature` at the start.
+  // A ledger in which nothing has flowed but what the holds need to bring about `temperature` at the start.
   [[nodiscard]] Ledger open(const Eigen::VectorXd& temperature) const;
 
   // A step of this length from `before`.
@@ -21,6 +22,7 @@ class Bookkeeper {
   const HeatModel& model_;
   Drives drives_;
   HeatBalance balance_;
+  std::optional<HeldShares> shares_;  // in fourth order
 };
 
 }  // namespace scree::thermal

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/mesh/simplex_mesh.h"
+#include "thermal/fourth_order.h"
 
 namespace scree::thermal {
 
@@ -20,7 +21,8 @@ std::array<Point<dim>, dim + 1> chosen(const CellPoints<dim>& points, mesh::Corn
 }  // namespace
 
 template <int dim>
-CornerOfCell corner_of_cell(mesh::CellKind kind, const CellPoints<dim>& points, const Tensor<dim>& conductivity, int corner) {
+CornerOfCell corner_of_cell(mesh::CellKind kind, const CellPoints<dim>& points, const Tensor<dim>& conductivity, int corner,
+                            SpaceOrder order) {
   CornerOfCell result;
   for (const mesh::CornerList corners : mesh::mixed_simplices(kind)) {
     const auto found = std::find(corners.begin(), corners.end(), static_cast<std::size_t>(corner));
@@ -31,6 +33,7 @@ CornerOfCell corner_of_cell(mesh::CellKind kind, const CellPoints<dim>& points, 
     for (int a = 0; a <= dim; ++a) result.conductance[corners[a]] += weight_of_split * conductance(row, a);
     result.volume += weight_of_split * mesh::signed_volume<dim>(simplex);
   }
+  if (order == SpaceOrder::fourth) make_fourth_order<dim>(kind, points, conductivity, corner, result);
   return result;
 }
 
@@ -41,8 +44,8 @@ CellPoints<dim> cell_points(const mesh::BlockMesh<dim>& mesh, const mesh::Cell& 
   return points;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                \
-  template CornerOfCell corner_of_cell<dim>(mesh::CellKind, const CellPoints<dim>&, const Tensor<dim>&, int); \
+#define SCREE_INSTANTIATE(dim)                                                                                            \
+  template CornerOfCell corner_of_cell<dim>(mesh::CellKind, const CellPoints<dim>&, const Tensor<dim>&, int, SpaceOrder); \
   template CellPoints<dim> cell_points<dim>(const mesh::BlockMesh<dim>&, const mesh::Cell&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -6,6 +6,7 @@
 
 #include "engine/mesh/cells.h"
 #include "thermal/block_conduction.h"
+#include "thermal/heat_options.h"
 
 namespace scree::thermal {
 
@@ -16,10 +17,13 @@ using CellPoints = std::array<Point<dim>, 8>;  // of the corners; those beyond t
 struct CornerOfCell {
   std::array<double, 8> conductance{};  // K between this corner and each: K_ab and K_ba are the same to the bit [W/K]
   double volume = 0;                    // of the simplices at this corner, weighted [m3]
+  std::array<double, 8> shared{};       // B of fourth_order.h, over density and specific heat; zero in second order [m3]
 };
 
+// In fourth order blended with the multilinear element (fourth_order.h).
 template <int dim>
-CornerOfCell corner_of_cell(mesh::CellKind kind, const CellPoints<dim>& points, const Tensor<dim>& conductivity, int corner);
+CornerOfCell corner_of_cell(mesh::CellKind kind, const CellPoints<dim>& points, const Tensor<dim>& conductivity, int corner,
+                            SpaceOrder order = SpaceOrder::second);
 
 template <int dim>
 CellPoints<dim> cell_points(const mesh::BlockMesh<dim>& mesh, const mesh::Cell& cell);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "thermal/heat_run.h"
+#include "thermal/problems.h"
 
 namespace scree::thermal {
 
@@ -25,6 +26,17 @@ constexpr double seconds_per_unknown = 1e-5;
 double least_implicit(const HeatModel& model) {
   const auto unknowns = static_cast<double>(model.capacity.size());
   return seconds_per_unknown * unknowns + solves * seconds_per_factor * 4 * unknowns * std::log2(unknowns);
+}
+
+ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
+  const bool possible = asked == Integrator::automatic || asked == Integrator::stabilised_explicit;
+  if (!possible || !can_be_stabilised(model)) {
+    throw InputError(problem("heat.space_order", "4",
+                             "must be done in stabilised explicit steps, which do no radiation, nor coefficients or conditions "
+                             "that change in time",
+                             "Set space_order: 2"));
+  }
+  return {make_stabilised_scheme(model), "heat.space_order: 4 needs explicit steps"};
 }
 
 ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
@@ -50,6 +62,7 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
 }  // namespace
 
 ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options) {
+  if (model.shared_capacity) return fourth_order(model, options.integrator);
   switch (options.integrator) {
     case Integrator::implicit:
       return {make_implicit_scheme(model), "asked for"};

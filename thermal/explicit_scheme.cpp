@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
@@ -81,6 +82,7 @@ StableStep stable_step(const HeatModel& model) {
   for (const NodeId node : model.fixed_nodes) fixed[node.index()] = 1;
   Drives drives(model);
   const Eigen::VectorXd loss = HeatBalance(model).linearised(model.initial, drives.at(0)).loss;
+  const double gain = largest_gain(model);
   StableStep limit{std::numeric_limits<double>::infinity(), NodeId{}};
   for (std::size_t node = 0; node < fixed.size(); ++node) {
     if (fixed[node] != 0) continue;
@@ -89,7 +91,7 @@ StableStep stable_step(const HeatModel& model) {
     for (SparseMatrix::InnerIterator entry(model.conductance, column); entry; ++entry) {
       if (fixed[entry.row()] == 0) row += std::abs(entry.value());
     }
-    const double step = 2 * model.capacity[column] / row;
+    const double step = 2 * model.capacity[column] / (gain * row);
     if (step < limit.step) limit = {step, NodeId{node}};
   }
   return limit;

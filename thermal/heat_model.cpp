@@ -10,6 +10,7 @@
 #include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
 #include "thermal/choose_lumped.h"
+#include "thermal/fourth_order.h"
 #include "thermal/joint_conduction.h"
 #include "thermal/lump.h"
 #include "thermal/problems.h"
@@ -171,6 +172,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
                           const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
                           const HeatOptions& options) {
   check_bodies(mesh, materials, options);
+  if (options.space_order == SpaceOrder::fourth) check_fourth_order(mesh, materials, options);
   const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
   HeatModel model;
   model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
@@ -187,7 +189,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
-  model.conductance = assemble_blocks(mesh, materials, model);
+  model.conductance = assemble_blocks(mesh, materials, options.space_order, model);
   if (model.lumped) lump(mesh, materials, model);
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;

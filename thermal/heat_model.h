@@ -61,14 +61,15 @@ struct VaryingProperties {
 // One row per node of the mesh, in its order, but one for all nodes of a lumped block; NodeId counts rows here. K is symmetric
 // with zero row sums.
 struct HeatModel {
-  NodeMap rows;                     // of the mesh's nodes
-  Table<NodeId, BlockId> blocks;    // of each row, for messages
-  Eigen::Matrix3Xd places;          // of each row, for functions of place: a lumped block's first node [m]
-  Eigen::VectorXd capacity;         // lumped, eq. (7) [J/K]
-  SparseMatrix conductance;         // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
-  Eigen::VectorXd initial;          // [K]
-  std::vector<NodeId> fixed_nodes;  // ascending
-  std::vector<int> fixed_hold;      // which of `holds` holds each of them
+  NodeMap rows;                                 // of the mesh's nodes
+  Table<NodeId, BlockId> blocks;                // of each row, for messages
+  Eigen::Matrix3Xd places;                      // of each row, for functions of place: a lumped block's first node [m]
+  Eigen::VectorXd capacity;                     // lumped, eq. (7) [J/K]
+  SparseMatrix conductance;                     // blocks, eq. (4)-(5), and contacts, eq. (11)-(13) [W/K]
+  std::optional<SparseMatrix> shared_capacity;  // B of fourth_order.h; nothing in second order [J/K]
+  Eigen::VectorXd initial;                      // [K]
+  std::vector<NodeId> fixed_nodes;              // ascending
+  std::vector<int> fixed_hold;                  // which of `holds` holds each of them
   // What acts from outside, each an entry of the ledger.
   std::vector<Hold> holds;
   std::vector<Load> loads;

@@ -103,6 +103,12 @@ struct TimeOptions {
   std::optional<double> step;  // explicit only; nothing: the largest stable one
 };
 
+// How the error goes down with the mesh size.
+enum class SpaceOrder {
+  second,  // on every mesh
+  fourth,  // on grids of equal quadrilaterals or hexahedra (fourth_order.h)
+};
+
 struct HeatOptions {
   Table<BodyId, Function> initial_temperature;   // at t = 0 [K]
   std::optional<Eigen::VectorXd> initial_field;  // of every node, instead [K]
@@ -110,6 +116,7 @@ struct HeatOptions {
   std::vector<Source> sources;
   JointOptions joint;
   BlockOptions blocks;
+  SpaceOrder space_order = SpaceOrder::second;
   TimeOptions time;
 };
 

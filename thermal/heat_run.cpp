@@ -7,6 +7,7 @@
 
 #include "thermal/bookkeeper.h"
 #include "thermal/choose_scheme.h"
+#include "thermal/fourth_order.h"
 #include "thermal/problems.h"
 #include "thermal/step_grid.h"
 
@@ -64,7 +65,7 @@ class HeatRun::Implementation {
         bookkeeper_(model_, scheme_.scheme->sums()),
         drives_(model_) {
     if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
-    state_.temperature = held(model_, model_.initial, drives_.at(0));
+    state_.temperature = after_jump(model_, held(model_, model_.initial, drives_.at(0)));
     state_.error = Eigen::VectorXd::Zero(model_.initial.size());
     state_.ledger = bookkeeper_.open(state_.temperature);
     state_.given.include(model_.initial);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "thermal/fourth_order.h"
 #include "thermal/heat_run.h"
 #include "thermal/time_scheme.h"
 
@@ -22,12 +23,17 @@ double Ledger::relative_residual() const {
 std::vector<NodeId> ledger_nodes(const HeatModel& model) {
   std::vector<NodeId> nodes = model.fixed_nodes;
   const auto add_joined = [&](const SparseMatrix& matrix) {
-    for (const NodeId node : model.fixed_nodes) {
+    const std::vector<NodeId> first = nodes;
+    for (const NodeId node : first) {
       for (SparseMatrix::InnerIterator entry(matrix, node.value()); entry; ++entry) {
         nodes.push_back(NodeId(static_cast<std::size_t>(entry.row())));
       }
     }
   };
+  if (model.shared_capacity) {
+    const HeldShares shares(model);
+    nodes.insert(nodes.end(), shares.givers().begin(), shares.givers().end());
+  }
   add_joined(model.conductance);
   if (model.varying && model.varying->unit_conductance.nonZeros() > 0) add_joined(model.varying->unit_conductance);
   for (const Exchange& exchange : model.exchanges)

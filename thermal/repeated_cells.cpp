@@ -63,12 +63,12 @@ struct HashOfShape {
 };
 
 template <int dim>
-typename RepeatedCells<dim>::Corners corners_of(const Shape<dim>& shape) {
+typename RepeatedCells<dim>::Corners corners_of(const Shape<dim>& shape, SpaceOrder order) {
   const auto kind = static_cast<mesh::CellKind>(shape.kind);
   const Tensor<dim> conductivity(shape.conductivity.data());
   typename RepeatedCells<dim>::Corners corners;
   for (std::size_t i = 0; i < mesh::corner_count(kind); ++i) {
-    corners[i] = corner_of_cell<dim>(kind, shape.points(), conductivity, static_cast<int>(i));
+    corners[i] = corner_of_cell<dim>(kind, shape.points(), conductivity, static_cast<int>(i), order);
   }
   return corners;
 }
@@ -104,7 +104,8 @@ class ShapeList {
 }  // namespace
 
 template <int dim>
-RepeatedCells<dim>::RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Tensor<dim>>& conductivity)
+RepeatedCells<dim>::RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Tensor<dim>>& conductivity,
+                                  SpaceOrder order)
     : which_(mesh.cells.size(), -1) {
   ShapeList<dim> list;
   for (const BlockId block : mesh.blocks.ids()) {
@@ -116,7 +117,7 @@ RepeatedCells<dim>::RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<
   for (const auto& [shape, entry] : list.shapes()) {
     if (entry.cells < 2) continue;
     place[static_cast<std::size_t>(entry.number)] = static_cast<std::int32_t>(shapes_.size());
-    shapes_.push_back(corners_of<dim>(shape));
+    shapes_.push_back(corners_of<dim>(shape, order));
   }
   for (std::int32_t& which : which_) which = which < 0 ? -1 : place[static_cast<std::size_t>(which)];
 }

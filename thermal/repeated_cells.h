@@ -18,7 +18,8 @@ class RepeatedCells {
   using Corners = std::array<CornerOfCell, 8>;
 
   // `conductivity` of each block [W/m/K].
-  RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Tensor<dim>>& conductivity);
+  RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Tensor<dim>>& conductivity,
+                SpaceOrder order = SpaceOrder::second);
 
   // What the corners of the cell have of it; nothing if no other cell is the same, or there are too many to keep.
   [[nodiscard]] const Corners* find(CellId cell) const { return which_[cell] < 0 ? nullptr : &shapes_[which_[cell]]; }

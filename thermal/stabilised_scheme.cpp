@@ -66,6 +66,8 @@ double estimate_of(int stages) {
   return (third - 1.0 / 6) / (0.25 - third);
 }
 
+// Space of fourth order: rates become (1 + C^-1 B) times themselves (fourth_order.h), by a second product each.
+
 // S at the nodes that the ledger reads.
 class WatchedMean {
  public:
@@ -98,9 +100,11 @@ class StabilisedScheme : public TimeScheme {
         balance_(model, Sums::plain),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
         stable_(stable),
+        sharing_(model.shared_capacity ? &*model.shared_capacity : nullptr, Sums::plain),
         watched_(ledger_nodes(model)) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
-    for (Columns* columns : {&start_, &newer_, &older_}) {
+    for (Columns* columns : {&start_, &newer_, &older_, &rates_, &shared_}) {
+      if ((columns == &rates_ || columns == &shared_) && sharing_.empty()) continue;
       columns->resize(inverse_.size(), 2);
       prefer_huge_pages(columns->data(), static_cast<std::size_t>(columns->size()) * sizeof(double));
     }
@@ -162,18 +166,35 @@ class StabilisedScheme : public TimeScheme {
       start_(row, 0) = scale * (driven[row] - flow[0]);
       start_(row, 1) = -scale * (flow[1] + linear_.loss[row] * newer_(row, 1));
     });
+    share(start_);
   }
 
   // h L x.
-  void rates(const Columns& x, double length, Columns& result) const {
+  void rates(const Columns& x, double length, Columns& result) {
     balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) {
       const double scale = length * inverse_[row];
       for (int c = 0; c < 2; ++c) result(row, c) = scale * (flow[c] + linear_.loss[row] * x(row, c));
     });
+    share(result);
+  }
+
+  // 1 + C^-1 B; nothing to do in second order.
+  void share(Columns& rates) {
+    if (sharing_.empty()) return;
+    sharing_.for_each_flow<2>(rates.data(), [&](int row, const double* flow) {
+      Eigen::Map<Pair>(shared_.data() + 2 * static_cast<std::ptrdiff_t>(row)) =
+          pair(rates, row) + inverse_[row] * ConstPair(flow);
+    });
+    rates.swap(shared_);
   }
 
   // Stage j in the place of j-2.
   void advance(const Coefficients& with, double length) {
+    if (!sharing_.empty()) {
+      rates(newer_, length, rates_);
+      older_ = with.mu * newer_ + with.nu * older_ - with.product * rates_ + with.start * start_;
+      return;
+    }
     const double* loss = linear_.loss.data();
     const double* inverse = inverse_.data();
     const double scale = with.product * length;
@@ -194,11 +215,13 @@ class StabilisedScheme : public TimeScheme {
   Eigen::VectorXd inverse_;  // of the capacity, 0 for a fixed node [K/J]
   Drives drives_;
   HeatBalance balance_;
-  Linearised linear_;  // the same at all times
-  double stable_;      // of eq. (8) [s]
+  Linearised linear_;    // the same at all times
+  double stable_;        // of eq. (8) [s]
+  FlowNetwork sharing_;  // B; empty in second order
   std::vector<NodeId> watched_;
   // Of the step: h C^-1 F at its start, and D of the last two stages.
   Columns start_, newer_, older_;
+  Columns rates_, shared_;  // in fourth order
 };
 
 }  // namespace

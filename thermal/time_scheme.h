@@ -75,8 +75,8 @@ std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 // `stable`: stable_step() of the model, if it is known already [s].
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<double> stable = {});
 
-// The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them, and those that
-// exchange heat with surroundings. Ascending.
+// The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them (and in fourth
+// order those joined to these), and those that exchange heat with surroundings. Ascending.
 std::vector<NodeId> ledger_nodes(const HeatModel& model);
 
 bool can_be_stabilised(const HeatModel& model);

@@ -113,10 +113,20 @@ Problem in_a_void(const ProbeSpec& spec, const mesh::BlockMesh<dim>& mesh, const
   return problem;
 }
 
+template <int dim>
+Stencil reading_of(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Nearest<dim>& nearest,
+                   Reading reading) {
+  const auto& nodes = mesh.elements[nearest.element];
+  if (reading == Reading::linear) return {{nodes.begin(), nodes.end()}, {nearest.weights.begin(), nearest.weights.end()}};
+  Aabb<dim> box;
+  for (const NodeId node : nodes) box.extend(mesh.nodes[node]);
+  return cubic_stencil<dim>(mesh, block, point, box.sizes());
+}
+
 }  // namespace
 
 template <int dim>
-std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs) {
+std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs, Reading reading) {
   const auto blocks = mesh::element_blocks(mesh);
   std::vector<Probe<dim>> probes;
   std::vector<Problem> problems;
@@ -127,11 +137,12 @@ std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const st
       problems.push_back(in_a_void<dim>(spec, mesh, nearest));
       continue;
     }
-    Probe<dim> probe{spec.name, blocks[nearest.element], nearest.element, nearest.weights, point, nearest.distance, spec.exact};
+    Probe<dim> probe{spec.name, blocks[nearest.element], {}, point, nearest.distance, spec.exact};
     if (probe.moved > 0) {
       probe.point.setZero();
       for (int i = 0; i <= dim; ++i) probe.point += nearest.weights[i] * mesh.nodes[mesh.elements[nearest.element][i]];
     }
+    probe.reading = reading_of<dim>(mesh, probe.block, probe.point, nearest, reading);
     probes.push_back(std::move(probe));
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -139,10 +150,10 @@ std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const st
 }
 
 template <int dim>
-double value_at(const Probe<dim>& probe, const mesh::BlockMesh<dim>& mesh, const Eigen::VectorXd& nodal) {
+double value_at(const Probe<dim>& probe, const Eigen::VectorXd& nodal) {
   double value = 0;
-  for (int i = 0; i <= dim; ++i) {
-    value += probe.weights[i] * nodal[static_cast<Eigen::Index>(mesh.elements[probe.element][i].index())];
+  for (std::size_t i = 0; i < probe.reading.nodes.size(); ++i) {
+    value += probe.reading.weights[i] * nodal[probe.reading.nodes[i].value()];
   }
   return value;
 }
@@ -166,11 +177,10 @@ std::vector<std::string> columns(const std::vector<Probe<dim>>& probes) {
 }
 
 template <int dim>
-std::vector<double> column_values(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh,
-                                  const Eigen::VectorXd& nodal, double time) {
+std::vector<double> column_values(const std::vector<Probe<dim>>& probes, const Eigen::VectorXd& nodal, double time) {
   std::vector<double> values;
   for (const Probe<dim>& probe : probes) {
-    values.push_back(value_at(probe, mesh, nodal));
+    values.push_back(value_at(probe, nodal));
     if (const auto exact = exact_at(probe, time)) values.push_back(*exact);
   }
   return values;
@@ -188,18 +198,16 @@ std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const m
   return lines;
 }
 
-template std::vector<Probe<2>> locate_probes(const mesh::BlockMesh<2>&, const std::vector<ProbeSpec>&);
-template std::vector<Probe<3>> locate_probes(const mesh::BlockMesh<3>&, const std::vector<ProbeSpec>&);
-template double value_at(const Probe<2>&, const mesh::BlockMesh<2>&, const Eigen::VectorXd&);
-template double value_at(const Probe<3>&, const mesh::BlockMesh<3>&, const Eigen::VectorXd&);
+template std::vector<Probe<2>> locate_probes(const mesh::BlockMesh<2>&, const std::vector<ProbeSpec>&, Reading);
+template std::vector<Probe<3>> locate_probes(const mesh::BlockMesh<3>&, const std::vector<ProbeSpec>&, Reading);
+template double value_at(const Probe<2>&, const Eigen::VectorXd&);
+template double value_at(const Probe<3>&, const Eigen::VectorXd&);
 template std::optional<double> exact_at(const Probe<2>&, double);
 template std::optional<double> exact_at(const Probe<3>&, double);
 template std::vector<std::string> columns(const std::vector<Probe<2>>&);
 template std::vector<std::string> columns(const std::vector<Probe<3>>&);
-template std::vector<double> column_values(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&, const Eigen::VectorXd&,
-                                           double);
-template std::vector<double> column_values(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&, const Eigen::VectorXd&,
-                                           double);
+template std::vector<double> column_values(const std::vector<Probe<2>>&, const Eigen::VectorXd&, double);
+template std::vector<double> column_values(const std::vector<Probe<3>>&, const Eigen::VectorXd&, double);
 template std::vector<std::string> describe(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&);
 template std::vector<std::string> describe(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&);
 

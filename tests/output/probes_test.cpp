@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/mesh/make_blocks.h"
 #include "tests/output/support.h"
 
 namespace scree::output {
@@ -47,8 +48,8 @@ TEST(Probes, ALinearFieldIsReadExactlyInTheBlockThatHoldsTheProbe) {
   EXPECT_EQ(probes[0].block, BlockId{0});
   EXPECT_EQ(probes[1].block, BlockId{1});
   EXPECT_EQ(probes[1].moved, 0);
-  EXPECT_NEAR(value_at(probes[0], mesh, linear_field(mesh)), 3 + 0.2 + 0.6 - 0.5, 1e-14);
-  EXPECT_NEAR(value_at(probes[1], mesh, linear_field(mesh)), 3 + 2.1 + 0.1 - 3.0, 1e-14);
+  EXPECT_NEAR(value_at(probes[0], linear_field(mesh)), 3 + 0.2 + 0.6 - 0.5, 1e-14);
+  EXPECT_NEAR(value_at(probes[1], linear_field(mesh)), 3 + 2.1 + 0.1 - 3.0, 1e-14);
 }
 
 TEST(Probes, WorkInTwoDimensionsAndIgnoreZ) {
@@ -56,7 +57,30 @@ TEST(Probes, WorkInTwoDimensionsAndIgnoreZ) {
   mesh.bodies.push_back({"bar", MaterialId{0}, false, {}});
   add_block<2>(mesh, BodyId{0}, {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1)});
   const auto probes = locate_probes(mesh, {{"p", {0.25, 0.5, 99}}});
-  EXPECT_NEAR(value_at(probes[0], mesh, Eigen::Vector3d(1, 2, 4)), 0.25 * 1 + 0.25 * 2 + 0.5 * 4, 1e-15);
+  EXPECT_NEAR(value_at(probes[0], Eigen::Vector3d(1, 2, 4)), 0.25 * 1 + 0.25 * 2 + 0.5 * 4, 1e-15);
+}
+
+// A cubic field in a grid, at places inside, beside the surface and on a node.
+TEST(Probes, ReadCubicFieldsExactlyInGridsIfAskedTo) {
+  mesh::BodySpec body;
+  body.name = "box";
+  body.shape = mesh::Box{.size = {1, 1, 1}};
+  body.mesh_size = 0.2;
+  body.cells = mesh::CellKind::hexahedron;
+  body.material = MaterialId{0};
+  const auto mesh = mesh::make_blocks<3>({body});
+  const auto cubic = [](const Eigen::Vector3d& at) {
+    return 1 + at.x() * at.x() * at.y() - 2 * std::pow(at.z(), 3) + at.x() * at.y() * at.z();
+  };
+  Eigen::VectorXd field(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const NodeId node : mesh.nodes.ids()) field[node.value()] = cubic(mesh.nodes[node]);
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(0.07, 0.02, -0.11), Eigen::Vector3d(0.49, -0.45, 0.5), Eigen::Vector3d(0.1, 0.1, 0.1)}) {
+    EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point}}, Reading::cubic)[0], field), cubic(point), 1e-10)
+        << point.transpose();
+  }
+  const Eigen::Vector3d inside(0.07, 0.02, -0.11);
+  EXPECT_GT(std::abs(value_at(locate_probes(mesh, {{"p", inside}})[0], field) - cubic(inside)), 1e-3);
 }
 
 TEST(Probes, TheBoundaryBelongsToTheBlock) {

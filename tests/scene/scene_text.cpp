@@ -128,6 +128,7 @@ std::string text_of(const thermal::HeatOptions& heat) {
   }
   text += fmt::format("\nblocks {} {}", static_cast<int>(heat.blocks.model), heat.blocks.largest_biot);
   for (const auto& [body, model] : heat.blocks.of_body) text += fmt::format(" {} {}", body.value(), static_cast<int>(model));
+  text += fmt::format("\nspace order {}", static_cast<int>(heat.space_order));
   const thermal::TimeOptions& time = heat.time;
   return text + fmt::format("\ntime {} {} {} {} {}", time.until, time.tolerance, time.output_every,
                             static_cast<int>(time.integrator), text_of(time.step));

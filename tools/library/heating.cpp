@@ -57,7 +57,7 @@ template <int dim>
 double Heating<dim>::probe(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& probe : pile_.probes) {
-    if (probe.name == name) return output::value_at(probe, pile_.mesh, temperature());
+    if (probe.name == name) return output::value_at(probe, temperature());
     names.push_back(probe.name);
   }
   refuse(scene_, "a probe", name, "must be one of the scene's", suggest(name, names));

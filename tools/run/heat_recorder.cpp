@@ -58,7 +58,7 @@ void HeatRecorder<dim>::finish() {
 template <int dim>
 void HeatRecorder<dim>::write(const thermal::HeatState& state) {
   const Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
-  if (table_) table_->append(state.time, output::column_values(pile_.probes, pile_.mesh, temperature, state.time));
+  if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
   write_frame(temperature, state);
   thermal::write(state, pile_.key, restart_);

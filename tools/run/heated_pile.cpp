@@ -25,6 +25,12 @@ std::optional<Eigen::VectorXd> earlier_temperatures(const Scene& scene, const me
   return field.values;
 }
 
+// Where nodes are worth it.
+output::Reading probe_reading(const Scene& scene) {
+  const bool fourth = scene.heat && scene.heat->space_order == thermal::SpaceOrder::fourth;
+  return fourth ? output::Reading::cubic : output::Reading::linear;
+}
+
 }  // namespace
 
 template <int dim>
@@ -32,7 +38,7 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
                             const std::function<void(const std::string&)>& note) {
   HeatedPile<dim> pile;
   pile.mesh = packing::placed_mesh(packing);
-  pile.probes = output::locate_probes(pile.mesh, scene.probes);
+  pile.probes = output::locate_probes(pile.mesh, scene.probes, probe_reading(scene));
   pile.start = earlier_temperatures(scene, pile.mesh, note);
   pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
   return pile;

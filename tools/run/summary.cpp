@@ -105,7 +105,7 @@ Json probes_json(const HeatOutcome<dim>& outcome) {
                           {"body", outcome.pile.mesh.bodies[block.body].name},
                           {"point", std::vector<double>(probe.point.begin(), probe.point.end())},
                           {"moved", probe.moved},
-                          {"temperature", output::value_at(probe, outcome.pile.mesh, temperature)}};
+                          {"temperature", output::value_at(probe, temperature)}};
     if (const auto exact = output::exact_at(probe, outcome.state.time)) probes[probe.name]["exact"] = *exact;
   }
   return probes;

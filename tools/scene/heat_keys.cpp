@@ -128,6 +128,11 @@ Keys time_keys() {
           .words({"automatic", "implicit", "stabilised_explicit", "explicit_euler"})
           .fallback("automatic")
           .only({in_time}),
+      row("heat.space_order", word,
+          "How the error goes down with the mesh size: by its square, or in grids of hexahedra by its fourth power.")
+          .words({"2", "4"})
+          .fallback("2")
+          .only({in_time}),
       row("heat.step", quantity, "Time step.", q::time, positive)
           .otherwise("largest stable one")
           .only({in_time, Condition{"heat.integrator", "explicit_euler"}}),

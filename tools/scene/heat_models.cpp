@@ -50,6 +50,13 @@ Model conduction(const HeatOptions& heat) {
           fmt::format("the scene has a heat section: {:g} s in {}", heat.time.until, words_of(heat.time.integrator))};
 }
 
+Model fourth_order(const HeatOptions& heat) {
+  const bool fourth = heat.space_order == thermal::SpaceOrder::fourth;
+  return {"fourth order in space", fourth,
+          fourth ? "heat.space_order is 4: neighbours share capacity, probes are read from cubic polynomials"
+                 : "heat.space_order is 2"};
+}
+
 // Names of the boundaries with a condition.
 template <class Condition>
 std::vector<std::string> boundaries_with(const HeatOptions& heat) {
@@ -114,6 +121,7 @@ std::vector<Model> heat_models(const Scene& scene) {
   const std::size_t sources = heat.sources.size();
   std::vector<Model> models{
       conduction(heat),
+      fourth_order(heat),
       {"heat through contacts", true, fmt::format("heat passes between blocks that touch: {}", words_of(heat.joint))},
       {"boundaries", boundaries > 0,
        boundaries > 0 ? fmt::format("heat.boundaries has {}", boundaries) : "all surfaces are insulated"},

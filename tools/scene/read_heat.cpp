@@ -224,6 +224,18 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
   return time;
 }
 
+thermal::SpaceOrder read_space_order(const Checked& heat, const thermal::HeatOptions& options, Problems& problems) {
+  if (options.time.steady || heat.at("space_order").text == "2") return thermal::SpaceOrder::second;
+  const Checked& order = heat.at("space_order");
+  const auto refuse = [&](const char* rule) { problems.push_back(order.problem("4", rule, "Set space_order: 2")); };
+  if (!options.blocks.all_meshed()) refuse("must have meshed blocks");
+  using enum thermal::Integrator;
+  if (const auto asked = options.time.integrator; asked == implicit || asked == explicit_euler) {
+    refuse("must be done in stabilised explicit steps");
+  }
+  return thermal::SpaceOrder::fourth;
+}
+
 }  // namespace
 
 std::optional<output::StoredField> read_initial_field(const Checked& initial) {
@@ -260,6 +272,7 @@ thermal::HeatOptions read_heat(const Checked& scene, Problems& problems) {
   options.joint = read_joint(scene, problems);
   options.blocks = read_blocks(heat, names, problems);
   options.time = read_time(heat, scene.at("output"));
+  options.space_order = read_space_order(heat, options, problems);
   check_times(options, problems);
   return options;
 }

@@ -1,0 +1,97 @@
+#include "engine/output/cubic_reading.h"
+
+#include <cmath>
+
+#include <Eigen/QR>
+
+namespace scree::output {
+
+namespace {
+
+constexpr int highest_degree = 3;
+// Cells around the point, a little more so that nodes right there are among them.
+constexpr double least_reach = 2.01;
+constexpr double largest_reach = 4.01;
+// Columns of the fit that are this dependent on the others are taken for dependent.
+constexpr double rank_threshold = 1e-6;
+
+// Exponents of the monomials up to a degree, the constant one first.
+template <int dim>
+std::vector<std::array<int, dim>> exponents(int degree) {
+  std::vector<std::array<int, dim>> all;
+  for (int sum = 0; sum <= degree; ++sum) {
+    for (int i = 0; i <= sum; ++i) {
+      if constexpr (dim == 2) {
+        all.push_back({sum - i, i});
+      } else {
+        for (int j = 0; i + j <= sum; ++j) all.push_back({sum - i - j, i, j});
+      }
+    }
+  }
+  return all;
+}
+
+// Nodes near the point and where they are from it, in cells.
+template <int dim>
+struct Surroundings {
+  std::vector<NodeId> nodes;
+  std::vector<Point<dim>> places;
+
+  Surroundings(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent,
+               double reach) {
+    for (const NodeId node : mesh.blocks[block].nodes) {
+      const Point<dim> place = (mesh.nodes[node] - point).cwiseQuotient(extent);
+      if (place.cwiseAbs().maxCoeff() > reach) continue;
+      nodes.push_back(node);
+      places.push_back(place);
+    }
+  }
+};
+
+// The weights of the nodes in the constant term of the polynomial; none if the nodes do not determine it.
+template <int dim>
+std::vector<double> fit(const Surroundings<dim>& around, int degree) {
+  const auto monomials = exponents<dim>(degree);
+  const auto rows = static_cast<Eigen::Index>(around.nodes.size());
+  const auto columns = static_cast<Eigen::Index>(monomials.size());
+  if (rows < columns) return {};
+  Eigen::VectorXd weight(rows);
+  Eigen::MatrixXd matrix(rows, columns);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Point<dim>& place = around.places[static_cast<std::size_t>(row)];
+    weight[row] = std::exp(-place.squaredNorm());
+    for (Eigen::Index column = 0; column < columns; ++column) {
+      matrix(row, column) = weight[row];
+      for (int axis = 0; axis < dim; ++axis) {
+        matrix(row, column) *= std::pow(place[axis], monomials[static_cast<std::size_t>(column)][axis]);
+      }
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows, columns);
+  qr.setThreshold(rank_threshold);
+  qr.compute(matrix);
+  if (qr.rank() < columns) return {};
+  const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(rows, rows));
+  std::vector<double> result;
+  for (Eigen::Index row = 0; row < rows; ++row) result.push_back(inverse(0, row) * weight[row]);
+  return result;
+}
+
+}  // namespace
+
+template <int dim>
+Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent) {
+  for (int degree = highest_degree; degree > 0; --degree) {
+    for (double reach = least_reach; reach <= largest_reach; ++reach) {
+      Surroundings<dim> around(mesh, block, point, extent, reach);
+      std::vector<double> weights = fit(around, degree);
+      if (!weights.empty()) return {std::move(around.nodes), std::move(weights)};
+    }
+  }
+  return {};
+}
+
+template Stencil cubic_stencil(const mesh::BlockMesh<2>&, BlockId, const Point<2>&, const Point<2>&);
+template Stencil cubic_stencil(const mesh::BlockMesh<3>&, BlockId, const Point<3>&, const Point<3>&);
+
+}  // namespace scree::output

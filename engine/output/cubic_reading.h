@@ -1,0 +1,22 @@
+// The value of a field at a point from a cubic polynomial through its nodes around: what a grid whose nodes are exact to the
+// fourth order needs to be read with. Straight lines between nodes miss T'' h^2/8, whatever the nodes are worth.
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh/block_mesh.h"
+
+namespace scree::output {
+
+// sum_i weights[i] T(nodes[i]).
+struct Stencil {
+  std::vector<NodeId> nodes;
+  std::vector<double> weights;
+};
+
+// From the nodes of the block within some cells of the size of `extent` [m] around: least squares, near nodes counting most. In
+// a grid of four layers or more it is exact for cubic fields; where there are fewer nodes, for quadratic or linear ones.
+template <int dim>
+Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent);
+
+}  // namespace scree::output
