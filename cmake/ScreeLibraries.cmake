@@ -9,6 +9,7 @@ find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(yaml-cpp REQUIRED)
 pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)

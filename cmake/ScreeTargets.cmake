@@ -27,6 +27,19 @@ function(scree_room name)
   target_compile_features(${name} PUBLIC cxx_std_20)
 endfunction()
 
+# scree_late_library(NAME SOURCES ... LINKS ...): a shared library that engine/base/late_library.h loads. Of the rooms in it only
+# what it exports by `extern "C"` is seen from outside.
+set(late_libraries ${CMAKE_INSTALL_LIBDIR}/scree)
+list(APPEND CMAKE_BUILD_RPATH ${PROJECT_BINARY_DIR}/lib)
+function(scree_late_library name)
+  cmake_parse_arguments(LATE "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(${name} MODULE ${LATE_SOURCES})
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib CXX_VISIBILITY_PRESET default)
+  target_link_libraries(${name} PRIVATE ${LATE_LINKS} scree_flags)
+  target_link_options(${name} PRIVATE LINKER:--exclude-libs,ALL)
+  install(TARGETS ${name} LIBRARY DESTINATION ${late_libraries})
+endfunction()
+
 # scree_test(NAME SOURCES ... LINKS ... [SUITES ...]): a GoogleTest program whose cases CTest knows one by one, or, where the
 # cases of a suite share a costly run, suite by suite.
 function(scree_test name)

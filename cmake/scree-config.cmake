@@ -4,3 +4,6 @@
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 include(ScreeLibraries)
 include(${CMAKE_CURRENT_LIST_DIR}/scree-targets.cmake)
+# Where the parts that are loaded late stand, from lib/cmake/scree.
+cmake_path(SET scree_late NORMALIZE ${CMAKE_CURRENT_LIST_DIR}/../../scree)
+target_link_options(scree::base INTERFACE LINKER:-rpath,${scree_late})

@@ -14,6 +14,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "engine/output/open_vtu.h"
+#include "engine/output/vtk_room.h"
 
 namespace scree::output {
 
@@ -101,7 +102,7 @@ vtkSmartPointer<vtkUnstructuredGrid> open_vtu(const std::filesystem::path& file)
   return reader->GetOutput();
 }
 
-mesh::RawMesh read_vtu(const std::filesystem::path& file) {
+mesh::RawMesh vtk::read_vtu(const std::filesystem::path& file) {
   const vtkSmartPointer<vtkUnstructuredGrid> opened = open_vtu(file);
   vtkUnstructuredGrid& grid = *opened;
   mesh::RawMesh raw;
@@ -113,10 +114,6 @@ mesh::RawMesh read_vtu(const std::filesystem::path& file) {
   }
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) add_cell(grid, c, raw);
   return raw;
-}
-
-mesh::MeshReaders mesh_readers() {
-  return {{".vtu", read_vtu}};
 }
 
 }  // namespace scree::output

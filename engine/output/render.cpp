@@ -13,6 +13,7 @@
 #include "engine/base/check.h"
 #include "engine/output/canvas.h"
 #include "engine/output/video.h"
+#include "engine/output/vtk_room.h"
 
 namespace scree::output {
 
@@ -97,6 +98,8 @@ Common look_through(const Picture& picture, const std::vector<SeriesEntry>& entr
 
 }  // namespace
 
+namespace vtk {
+
 void render(const Picture& picture, const std::filesystem::path& png) {
   const ShownFrame frame = read_shown(picture, choose_frame(picture));
   const Colouring colouring = make_colours(*frame.array, range_of(*frame.array, picture));
@@ -116,5 +119,7 @@ void animate(const Picture& picture, double duration, const std::filesystem::pat
     }
   });
 }
+
+}  // namespace vtk
 
 }  // namespace scree::output

@@ -3,9 +3,8 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
@@ -14,18 +13,23 @@ namespace scree::output {
 
 std::vector<SeriesEntry> read_index(const std::filesystem::path& index) {
   if (!std::filesystem::is_regular_file(index)) throw RunError(fmt::format("{}: there is no such series", index.string()));
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(index.c_str()));
-  auto* collection = root == nullptr ? nullptr : root->FindNestedElementWithName("Collection");
-  if (collection == nullptr) throw RunError(fmt::format("{}: is no series of frames (.pvd)", index.string()));
+  boost::property_tree::ptree root;
+  try {
+    boost::property_tree::read_xml(index.string(), root);
+  } catch (const boost::property_tree::xml_parser_error&) {
+    root.clear();
+  }
+  const auto collection = root.get_child_optional("VTKFile.Collection");
+  if (!collection) throw RunError(fmt::format("{}: is no series of frames (.pvd)", index.string()));
   std::vector<SeriesEntry> entries;
-  for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-    auto* frame = collection->GetNestedElement(i);
-    const char* time = frame->GetAttribute("timestep");
-    const char* file = frame->GetAttribute("file");
-    if (time == nullptr || file == nullptr || !std::filesystem::is_regular_file(index.parent_path() / file)) {
-      throw RunError(fmt::format("{}: names a frame that is missing ({})", index.string(), file == nullptr ? "no name" : file));
+  for (const auto& [name, frame] : *collection) {
+    if (name != "DataSet") continue;
+    const auto time = frame.get_optional<std::string>("<xmlattr>.timestep");
+    const auto file = frame.get_optional<std::string>("<xmlattr>.file");
+    if (!time || !file || !std::filesystem::is_regular_file(index.parent_path() / *file)) {
+      throw RunError(fmt::format("{}: names a frame that is missing ({})", index.string(), file.value_or("no name")));
     }
-    entries.push_back({std::strtod(time, nullptr), file});
+    entries.push_back({std::strtod(time->c_str(), nullptr), *file});
   }
   return entries;
 }

@@ -15,6 +15,7 @@
 
 #include "engine/output/open_vtu.h"
 #include "engine/output/series_index.h"
+#include "engine/output/vtk_room.h"
 
 namespace scree::output {
 
@@ -166,6 +167,8 @@ void interpolate(const StoredField& stored, Lookup& lookup, const mesh::BlockMes
 
 }  // namespace
 
+namespace vtk {
+
 template <int dim>
 NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& mesh) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = open(stored);
@@ -191,5 +194,7 @@ NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& me
 
 template NodalField read_stored<2>(const StoredField&, const mesh::BlockMesh<2>&);
 template NodalField read_stored<3>(const StoredField&, const mesh::BlockMesh<3>&);
+
+}  // namespace vtk
 
 }  // namespace scree::output

@@ -1,13 +1,11 @@
 #include "engine/output/vtu_text.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
-#include <vtkBase64Utilities.h>
-#include <vtkCellType.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkNew.h>
+#include <lz4.h>
 
 #include "engine/base/check.h"
 
@@ -17,6 +15,7 @@ namespace {
 
 constexpr std::size_t bytes_in_block = 1 << 16;
 
+// As in vtkCellType.h.
 struct VtkCell {
   std::uint8_t type;
   std::int32_t corners;
@@ -25,47 +24,54 @@ struct VtkCell {
 VtkCell vtk_cell(CellType type) {
   switch (type) {
     case CellType::vertex:
-      return {VTK_VERTEX, 1};
+      return {1, 1};
     case CellType::line:
-      return {VTK_LINE, 2};
+      return {3, 2};
     case CellType::triangle:
-      return {VTK_TRIANGLE, 3};
+      return {5, 3};
     case CellType::quadrilateral:
-      return {VTK_QUAD, 4};
+      return {9, 4};
     case CellType::tetrahedron:
-      return {VTK_TETRA, 4};
+      return {10, 4};
     case CellType::wedge:
-      return {VTK_WEDGE, 6};
+      return {13, 6};
     case CellType::hexahedron:
-      return {VTK_HEXAHEDRON, 8};
+      return {12, 8};
   }
   std::abort();
 }
 
+// RFC 4648. Boost's is private to one of its libraries or slow.
 void append_base64(const unsigned char* bytes, std::size_t count, std::string& text) {
-  const std::size_t before = text.size();
-  text.resize(before + (count + 2) / 3 * 4);
-  const auto written = vtkBase64Utilities::Encode(bytes, count, reinterpret_cast<unsigned char*>(text.data() + before));
-  text.resize(before + written);
+  static constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::size_t at = text.size();
+  text.resize(at + (count + 2) / 3 * 4, '=');
+  for (std::size_t i = 0; i < count; i += 3) {
+    const std::size_t given = std::min<std::size_t>(3, count - i);
+    unsigned group = 0;
+    for (std::size_t byte = 0; byte < 3; ++byte) group = group << 8 | (byte < given ? bytes[i + byte] : 0U);
+    for (std::size_t digit = 0; digit <= given; ++digit) text[at + digit] = digits[group >> (18 - 6 * digit) & 63U];
+    at += 4;
+  }
 }
 
 // The values of one array, compressed and encoded.
 void append_values(const void* values, std::size_t bytes, std::string& text) {
-  vtkNew<vtkLZ4DataCompressor> compressor;
   const std::size_t blocks = (bytes + bytes_in_block - 1) / bytes_in_block;
   std::vector<std::uint64_t> header{blocks, bytes_in_block, bytes % bytes_in_block};
-  std::vector<unsigned char> compressed(blocks * compressor->GetMaximumCompressionSpace(bytes_in_block));
+  std::vector<char> compressed(blocks * static_cast<std::size_t>(LZ4_compressBound(bytes_in_block)));
   std::size_t end = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     const auto* from = static_cast<const unsigned char*>(values) + block * bytes_in_block;
     const std::size_t size = std::min(bytes_in_block, bytes - block * bytes_in_block);
-    const std::size_t packed = compressor->Compress(from, size, compressed.data() + end, compressed.size() - end);
+    const int packed = LZ4_compress_default(reinterpret_cast<const char*>(from), compressed.data() + end,
+                                            static_cast<int>(size), static_cast<int>(compressed.size() - end));
     SCREE_ENSURE(packed > 0);
-    header.push_back(packed);
-    end += packed;
+    header.push_back(static_cast<std::uint64_t>(packed));
+    end += static_cast<std::size_t>(packed);
   }
   append_base64(reinterpret_cast<const unsigned char*>(header.data()), header.size() * sizeof header[0], text);
-  append_base64(compressed.data(), end, text);
+  append_base64(reinterpret_cast<const unsigned char*>(compressed.data()), end, text);
 }
 
 template <class T>

@@ -64,6 +64,12 @@ if(difference LESS -1 OR difference GREATER 1)
   message(FATAL_ERROR "the other project finds ${probe} mK where the command finds ${expected} mK")
 endif()
 
+# What is loaded late is found beside the command and beside the Python module: starting from earlier temperatures needs VTK.
+set(from_earlier "heat.initial={from: ${consumer}/run}")
+run(ignored ${prefix}/bin/scree run ${prefix}/share/scree/scenes/slab.yaml --set ${from_earlier} --out ${consumer}/again --quiet)
+run(ignored ${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/lib/python3/dist-packages ${PYTHON} -B -c
+    "import scree; scree.run(scree.Scene('${prefix}/share/scree/scenes/slab.yaml', {'heat.initial': {'from': '${consumer}/run'}}), '${consumer}/by_python')")
+
 foreach(document IN ITEMS LICENSE CHANGELOG.md tools/README.md)
   if(NOT EXISTS ${prefix}/share/doc/scree/${document})
     message(FATAL_ERROR "${document} was not installed")
