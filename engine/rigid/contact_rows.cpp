@@ -9,37 +9,43 @@ namespace {
 
 using Bodies = std::array<BodyChange*, 2>;  // null: fixed
 
-// Sums from the left, as Bullet does.
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-}
-
 Bodies bodies_of(const std::array<int, 2>& ids, std::vector<BodyChange>& bodies) {
   return {ids[0] < 0 ? nullptr : &bodies[ids[0]], ids[1] < 0 ? nullptr : &bodies[ids[1]]};
 }
 
-void solve(Row& row, const Bodies& bodies, double low, double high) {
+[[gnu::always_inline]] inline void push(const Row& row, const Bodies& bodies, double impulse) {
   const auto& [first, second] = bodies;
-  double impulse = row.wanted - row.applied * row.softness;
-  if (first != nullptr) impulse -= (dot(row.direction, first->linear) + dot(row.moment[0], first->angular)) * row.scale;
-  if (second != nullptr) impulse -= (-dot(row.direction, second->linear) + dot(row.moment[1], second->angular)) * row.scale;
-  const double sum = row.applied + impulse;
-  const double clamped = std::min(std::max(sum, low), high);
-  if (clamped != sum) impulse = clamped - row.applied;
-  row.applied = clamped;
   if (first != nullptr) {
-    first->linear += (row.direction * first->inverse_mass) * impulse;
+    first->linear += row.direction * (first->inverse_mass * impulse);
     first->angular += row.turn[0] * impulse;
   }
   if (second != nullptr) {
-    second->linear -= (row.direction * second->inverse_mass) * impulse;
+    second->linear -= row.direction * (second->inverse_mass * impulse);
     second->angular += row.turn[1] * impulse;
   }
 }
 
+[[gnu::always_inline]] inline void solve(Row& row, const Bodies& bodies, double low, double high) {
+  const auto& [first, second] = bodies;
+  double change = 0;
+  if (first != nullptr) change += row.direction.dot(first->linear) + row.moment[0].dot(first->angular);
+  if (second != nullptr) change += row.moment[1].dot(second->angular) - row.direction.dot(second->linear);
+  const double sum = std::min(std::max(row.applied + row.wanted - change * row.scale, low), high);
+  push(row, bodies, sum - row.applied);
+  row.applied = sum;
+}
+
 }  // namespace
 
-void solve_contacts(std::vector<ContactRow>& rows, std::vector<BodyChange>& bodies) {
+void apply_impulses(std::span<const ContactRow> rows, std::vector<BodyChange>& bodies) {
+  for (const ContactRow& row : rows) {
+    const Bodies pair = bodies_of(row.bodies, bodies);
+    push(row.normal, pair, row.normal.applied);
+    for (const Row& friction : row.friction) push(friction, pair, friction.applied);
+  }
+}
+
+void solve_contacts(std::span<ContactRow> rows, std::vector<BodyChange>& bodies) {
   for (ContactRow& row : rows) {
     const Bodies pair = bodies_of(row.bodies, bodies);
     solve(row.normal, pair, 0, std::numeric_limits<double>::infinity());
@@ -49,7 +55,7 @@ void solve_contacts(std::vector<ContactRow>& rows, std::vector<BodyChange>& bodi
   }
 }
 
-void solve_overlaps(std::vector<OverlapRow>& rows, std::vector<BodyChange>& bodies) {
+void solve_overlaps(std::span<OverlapRow> rows, std::vector<BodyChange>& bodies) {
   for (OverlapRow& row : rows) {
     solve(row.normal, bodies_of(row.bodies, bodies), 0, std::numeric_limits<double>::infinity());
   }

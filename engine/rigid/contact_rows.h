@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,8 +23,7 @@ struct Row {
   std::array<Eigen::Vector3d, 2> moment;  // of the direction about the bodies' centres; minus that of the second
   std::array<Eigen::Vector3d, 2> turn;    // change of angular velocity by a unit impulse
   double wanted = 0;                      // change of the approach times `scale`, impulse units
-  double softness = 0;
-  double scale = 0;  // impulse per change of approach
+  double scale = 0;                       // impulse per change of approach
   double applied = 0;
 };
 
@@ -39,9 +39,11 @@ struct OverlapRow {
   std::array<int, 2> bodies{-1, -1};
 };
 
-// One pass over all contacts: normal impulse, then friction within what it allows (sequential impulses). Rounds as Bullet's
-// loops do.
-void solve_contacts(std::vector<ContactRow>& rows, std::vector<BodyChange>& bodies);
-void solve_overlaps(std::vector<OverlapRow>& rows, std::vector<BodyChange>& bodies);
+// Gives the bodies the impulses that the rows start from.
+void apply_impulses(std::span<const ContactRow> rows, std::vector<BodyChange>& bodies);
+
+// One pass over all contacts: normal impulse, then friction within what it allows (sequential impulses).
+void solve_contacts(std::span<ContactRow> rows, std::vector<BodyChange>& bodies);
+void solve_overlaps(std::span<OverlapRow> rows, std::vector<BodyChange>& bodies);
 
 }  // namespace scree::rigid

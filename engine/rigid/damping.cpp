@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/phases.h"
 #include "engine/rigid/polyhedron_shape.h"
 
 namespace scree::rigid {
@@ -32,30 +33,34 @@ Damping::Damping(const World& world, const Eigen::Vector3d& gravity) {
 
 void Damping::slow_down(const World& world, double local, double viscous, double time_step) {
   const double kept = 1 - viscous * time_step;
-  for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
-    btRigidBody& body = *world.free_bodies()[i];
-    Motion& motion = motions_[world.free_blocks()[i].index()];
-    motion.velocity = from_bullet(body.getLinearVelocity());
-    motion.rotation = from_bullet(body.getAngularVelocity());
-    if (local > 0) {
-      const Eigen::Matrix3d to_world = axes(body);
-      motion.velocity = reduced(motion.velocity, local * time_step * motion.acceleration);
-      motion.rotation = to_world * reduced(to_world.transpose() * motion.rotation, local * time_step * motion.angular);
+  for_short_chunks(world.free_blocks().size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      btRigidBody& body = *world.free_bodies()[i];
+      Motion& motion = motions_[world.free_blocks()[i].index()];
+      motion.velocity = from_bullet(body.getLinearVelocity());
+      motion.rotation = from_bullet(body.getAngularVelocity());
+      if (local > 0) {
+        const Eigen::Matrix3d to_world = axes(body);
+        motion.velocity = reduced(motion.velocity, local * time_step * motion.acceleration);
+        motion.rotation = to_world * reduced(to_world.transpose() * motion.rotation, local * time_step * motion.angular);
+      }
+      motion.velocity *= kept;
+      motion.rotation *= kept;
+      body.setLinearVelocity(to_bullet(motion.velocity));
+      body.setAngularVelocity(to_bullet(motion.rotation));
     }
-    motion.velocity *= kept;
-    motion.rotation *= kept;
-    body.setLinearVelocity(to_bullet(motion.velocity));
-    body.setAngularVelocity(to_bullet(motion.rotation));
-  }
+  });
 }
 
 void Damping::observe(const World& world, double time_step) {
-  for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
-    const btRigidBody& body = *world.free_bodies()[i];
-    Motion& motion = motions_[world.free_blocks()[i].index()];
-    motion.acceleration = (from_bullet(body.getLinearVelocity()) - motion.velocity) / time_step;
-    motion.angular = axes(body).transpose() * (from_bullet(body.getAngularVelocity()) - motion.rotation) / time_step;
-  }
+  for_short_chunks(world.free_blocks().size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const btRigidBody& body = *world.free_bodies()[i];
+      Motion& motion = motions_[world.free_blocks()[i].index()];
+      motion.acceleration = (from_bullet(body.getLinearVelocity()) - motion.velocity) / time_step;
+      motion.angular = axes(body).transpose() * (from_bullet(body.getAngularVelocity()) - motion.rotation) / time_step;
+    }
+  });
 }
 
 double Damping::net_force(const World& world, BlockId block) const {

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/chunks.h"
+#include "engine/base/phases.h"
 #include "engine/rigid/contact_points.h"
 #include "engine/rigid/polyhedron_shape.h"
 
@@ -307,7 +307,7 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   if (flights_.count() > 0) end_flights(*cache);
   for (int i = 0; i < pairs.size(); ++i) add_algorithm(pairs[i]);
   std::vector<std::vector<News>> news(chunk_count(count));
-  for_chunks(count, [&](Chunk chunk) {
+  for_short_chunks(count, [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const auto number = static_cast<int>(i);
       const WrappedPair wrapped(pairs[number]);

@@ -4,19 +4,20 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/base/check.h"
+#include "engine/base/phases.h"
+#include "engine/rigid/contact_solver.h"
 #include "engine/rigid/mass_properties.h"
 #include "engine/rigid/polyhedron_collision.h"
 #include "engine/rigid/polyhedron_shape.h"
-#include "engine/rigid/warm_solver.h"
 
 // Bullet's global lengths; the first has no declaration in its headers.
 extern btScalar gDbvtMargin;
@@ -31,6 +32,9 @@ double size_of(const mesh::BlockMesh<3>& mesh, const mesh::Block& block) {
   for (const ElementId e : block.elements) volume += mesh::element_volume(mesh, e);
   return std::cbrt(volume);
 }
+
+// Part of an overlap that is undone in a step.
+constexpr double overlap_undone = 0.2;
 
 // A typical length of the free blocks, to which the lengths of the contact search are tied: their mean size [m].
 double length_scale(const mesh::BlockMesh<3>& mesh) {
@@ -92,27 +96,23 @@ struct World::Bullet {
       : configuration(ranges, static_cast<int>(mesh.blocks.size())),
         flights(mesh, options.release_time > 0),
         dispatcher(configuration, flights),
-        world(&dispatcher, &broadphase, &solver, &configuration) {
+        world(&dispatcher, &broadphase, nullptr, &configuration),
+        bounce_speed(ranges.bounce_speed) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;  // added to every bounding box
-    btContactSolverInfo& info = world.getSolverInfo();
-    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
-                        SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION |
-                        SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
-    info.m_warmstartingFactor = 1;
-    info.m_splitImpulse = 1;
-    info.m_splitImpulsePenetrationThreshold = 0;
-    info.m_restitutionVelocityThreshold = ranges.bounce_speed;
-    // One group: a pile is one island anyway.
-    world.getSimulationIslandManager()->setSplitIslands(false);
   }
 
   CollisionConfiguration configuration;
   Flights flights;
   Dispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  WarmSolver solver;
-  btDiscreteDynamicsWorld world;
+  ContactSolver solver;
+  btDiscreteDynamicsWorld world;  // only of its bodies and their pairs; steps are made here
+  double bounce_speed;            // [m/s]
+
+  [[nodiscard]] std::span<btPersistentManifold* const> manifolds() {
+    return {dispatcher.getInternalManifoldPointer(), static_cast<std::size_t>(dispatcher.getNumManifolds())};
+  }
 };
 
 struct World::Item {
@@ -212,8 +212,21 @@ World::~World() {
 }
 
 void World::step(double time_step, int iterations) {
-  bullet_->world.getSolverInfo().m_numIterations = iterations;
-  bullet_->world.stepSimulation(time_step, 0);
+  // Boxes hold the way of the step.
+  for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i)
+      free_bodies_[i]->predictIntegratedTransform(time_step, free_bodies_[i]->getInterpolationWorldTransform());
+  });
+  bullet_->world.getDispatchInfo().m_timeStep = time_step;
+  bullet_->world.performDiscreteCollisionDetection();
+  bullet_->solver.solve(free_bodies_, bullet_->manifolds(), {time_step, overlap_undone, bullet_->bounce_speed}, iterations);
+  for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      btTransform next;
+      free_bodies_[i]->predictIntegratedTransform(time_step, next);
+      free_bodies_[i]->proceedToTransform(next);
+    }
+  });
 }
 
 std::size_t World::block_count() const {

@@ -220,15 +220,15 @@ TEST(Settle, TheSameHeapSettlesToTheSameBits) {
 }
 
 TEST(Settle, SettlesToTheSameBitsForAnyNumberOfThreads) {
-  // Enough pairs for every thread to look at some.
+  // Enough pairs for every thread to look at some, and enough blocks for several slabs (row_batches.h).
   mesh::BlockMesh<3> mesh = plate();
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 1200; ++i) {
     const Vector3d corner(0.098 * (i % 10) - 0.5, 0.098 * (i / 10 % 10) - 0.5, 0.02 + 0.098 * (i / 100));
     add_tetrahedron(mesh,
                     {corner, corner + Vector3d(0.1, 0, 0), corner + Vector3d(0, 0.1, 0.01), corner + Vector3d(0.01, 0, 0.1)});
   }
-  SettleOptions options = for_time(0.3);
-  options.iterations = 10;
+  SettleOptions options = for_time(0.2);
+  options.iterations = 5;
   std::vector<XXH64_hash_t> hashes;
   for (const int threads : {1, 2, 5}) {
     use_threads(threads);

@@ -1,0 +1,45 @@
+// Work in phases: the tasks of a phase are independent of each other, and none begins before the last phase is over.
+//
+// Phases may be as short as some tens of microseconds, and there may be a thousand a second. Loops of OpenMP end when every
+// thread has come to their end, which on a machine with other work takes until every thread has had its turn on a processor.
+// Here the calling thread does what there is to do, and other threads help if they have a processor: one that has none holds up
+// nobody, unless it was stopped within a task.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "engine/base/chunks.h"
+
+namespace scree {
+
+// Phases and what to do in them.
+struct PhasedWork {
+  const int* sizes;  // number of tasks of each phase
+  int phases;
+  int rounds;  // all phases are done as many times over
+  void (*task)(const void* body, int phase, int number);
+  const void* body;
+};
+
+void run_phases(const PhasedWork& work);
+
+// Calls body(phase, number) for sizes[phase] tasks of each phase, on all threads, and that `rounds` times over. The body must
+// not throw.
+template <std::size_t Phases, class Body>
+void run_phases(const std::array<int, Phases>& sizes, int rounds, const Body& body) {
+  const auto task = [](const void* any, int phase, int number) { (*static_cast<const Body*>(any))(phase, number); };
+  run_phases({sizes.data(), static_cast<int>(Phases), rounds, task, &body});
+}
+
+// for_chunks (chunks.h) for loops that are short.
+template <class Body>
+void for_short_chunks(std::size_t count, const Body& body) {
+  run_phases(std::array<int, 1>{static_cast<int>(chunk_count(count))}, 1, [&](int, int task) {
+    const auto number = static_cast<std::size_t>(task);
+    body(Chunk{number, number * chunk_size, std::min(count, (number + 1) * chunk_size)});
+  });
+}
+
+}  // namespace scree

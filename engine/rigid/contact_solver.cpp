@@ -1,0 +1,163 @@
+#include "engine/rigid/contact_solver.h"
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <LinearMath/btTransformUtil.h>
+
+#include "engine/base/phases.h"
+#include "engine/rigid/polyhedron_shape.h"
+
+namespace scree::rigid {
+
+namespace {
+
+// Bodies to a slab, and slabs at most.
+constexpr int bodies_per_slab = 256;
+constexpr int most_slabs = 64;
+
+// Part of the rows that may lie across several slabs, for those are solved on one thread.
+constexpr double rows_across = 0.05;
+
+// The part of an overlap's turn that is undone with it, as in Bullet: more makes a block rock.
+constexpr double overlap_turn = 0.1;
+
+int slabs_for(std::size_t bodies) {
+  int slabs = 1;
+  while (slabs < most_slabs && static_cast<std::size_t>(2 * slabs) * bodies_per_slab <= bodies) slabs *= 2;
+  return slabs;
+}
+
+}  // namespace
+
+void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, Manifolds manifolds, const StepLengths& step,
+                          int iterations) {
+  start(bodies, step.time_step);
+  sort(manifolds);
+  set_up(manifolds, step);
+  solve_rows(iterations);
+  finish(bodies, manifolds);
+  undo_overlaps(bodies, step, iterations);
+}
+
+void ContactSolver::start(const std::vector<btRigidBody*>& bodies, double time_step) {
+  starts_.resize(bodies.size());
+  changes_.assign(bodies.size(), {});
+  for_short_chunks(bodies.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      bodies[i]->setCompanionId(static_cast<int>(i));
+      starts_[i] = start_of(*bodies[i], time_step);
+      changes_[i].inverse_mass = starts_[i].inverse_mass;
+    }
+  });
+}
+
+void ContactSolver::sort(Manifolds manifolds) {
+  entries_.resize(manifolds.size());
+  for_short_chunks(entries_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      Entry& entry = entries_[i];
+      entry.ids = {manifolds[i]->getBody0()->getCompanionId(), manifolds[i]->getBody1()->getCompanionId()};
+      entry.count = entry.ids[0] < 0 && entry.ids[1] < 0 ? 0 : manifolds[i]->getNumContacts();
+    }
+  });
+  int slabs = slabs_for(starts_.size());
+  while (!order_rows(slabs)) slabs /= 2;
+}
+
+// Within a batch the first points of all its pairs come first, then the second ones, and so on: what follows each other is of
+// different bodies, and the processor need not wait for one to be done before it begins the next. False if too many are left
+// for one thread.
+bool ContactSolver::order_rows(int slabs) {
+  std::vector<Eigen::Vector3d> centres;
+  for (const BodyStart& start : starts_) centres.push_back(start.centre);
+  const std::vector<int> slab = slabs_of(centres, slabs);
+  std::vector<std::array<int, 4>> next(slabs + 1, {0, 0, 0, 0});
+  for (Entry& entry : entries_) {
+    const auto slab_of = [&](int body) { return body < 0 ? -1 : slab[body]; };
+    if (entry.count > 0) entry.batch = batch_of(slab_of(entry.ids[0]), slab_of(entry.ids[1]), slabs);
+    for (int k = 0; k < entry.count; ++k) ++next[entry.batch][k];
+  }
+  batches_.ends.assign(1, 0);
+  int begin = 0;
+  for (auto& rounds : next) {
+    for (int& place : rounds) begin += std::exchange(place, begin);
+    batches_.ends.push_back(begin);
+  }
+  if (slabs > 1 && begin - static_cast<int>(batches_.ends[slabs]) > rows_across * begin) return false;
+  for (Entry& entry : entries_) {
+    for (int k = 0; k < entry.count; ++k) entry.rows[k] = next[entry.batch][k]++;
+  }
+  return true;
+}
+
+void ContactSolver::set_up(Manifolds manifolds, const StepLengths& step) {
+  rows_.resize(batches_.ends.back());
+  overlaps_.resize(rows_.size());
+  for_short_chunks(entries_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const Entry& entry = entries_[i];
+      const auto start_of_body = [&](int id) { return id < 0 ? nullptr : &starts_[id]; };
+      const std::array<const BodyStart*, 2> bodies{start_of_body(entry.ids[0]), start_of_body(entry.ids[1])};
+      for (int k = 0; k < entry.count; ++k) {
+        const btManifoldPoint& point = manifolds[i]->getContactPoint(k);
+        ContactRow& row = rows_[entry.rows[k]] = contact_row(point, bodies, entry.ids, step);
+        overlaps_[entry.rows[k]] = overlap_impulse(point, row.normal, step);
+      }
+    }
+  });
+}
+
+void ContactSolver::solve_rows(int iterations) {
+  const auto part = [&](std::size_t begin, std::size_t end) { return std::span(rows_).subspan(begin, end - begin); };
+  for_batches(batches_, 1, [&](std::size_t begin, std::size_t end) { apply_impulses(part(begin, end), changes_); });
+  for_batches(batches_, iterations, [&](std::size_t begin, std::size_t end) { solve_contacts(part(begin, end), changes_); });
+}
+
+void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds) {
+  for_short_chunks(bodies.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      bodies[i]->setLinearVelocity(to_bullet(starts_[i].linear + changes_[i].linear));
+      bodies[i]->setAngularVelocity(to_bullet(starts_[i].angular + changes_[i].angular));
+      bodies[i]->setCompanionId(-1);
+    }
+  });
+  for_short_chunks(entries_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      for (int k = 0; k < entries_[i].count; ++k) {
+        const ContactRow& row = rows_[entries_[i].rows[k]];
+        btManifoldPoint& point = manifolds[i]->getContactPoint(k);
+        point.m_appliedImpulse = row.normal.applied;
+        point.m_appliedImpulseLateral1 = row.friction[0].applied;
+        point.m_appliedImpulseLateral2 = row.friction[1].applied;
+      }
+    }
+  });
+}
+
+// Takes the overlaps apart without giving the bodies velocity.
+void ContactSolver::undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations) {
+  std::vector<OverlapRow> rows;
+  Batches batches{{0}};
+  for (int b = 0; b < batches_.count(); ++b) {
+    for (std::size_t i = batches_.ends[b]; i < batches_.ends[b + 1]; ++i) {
+      if (overlaps_[i] <= 0) continue;
+      rows.push_back({rows_[i].normal, rows_[i].bodies});
+      rows.back().normal.wanted = overlaps_[i];
+      rows.back().normal.applied = 0;
+    }
+    batches.ends.push_back(rows.size());
+  }
+  if (rows.empty()) return;
+  for (BodyChange& change : changes_) change.linear = change.angular = Eigen::Vector3d::Zero();
+  for_batches(batches, iterations, [&](std::size_t begin, std::size_t end) {
+    solve_overlaps(std::span(rows).subspan(begin, end - begin), changes_);
+  });
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (changes_[i].linear.isZero(0) && changes_[i].angular.isZero(0)) continue;
+    btTransform moved;
+    btTransformUtil::integrateTransform(bodies[i]->getWorldTransform(), to_bullet(changes_[i].linear),
+                                        to_bullet(changes_[i].angular) * overlap_turn, step.time_step, moved);
+    bodies[i]->setWorldTransform(moved);
+  }
+}
+
+}  // namespace scree::rigid

@@ -1,0 +1,50 @@
+// Sequential impulses between rigid bodies, starting from the impulses of the last step, friction included: the solver of
+// Bullet 3.24 starts every step with no friction, and a pile creeps and sinks for want of it (README.md).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "engine/rigid/contact_rows.h"
+#include "engine/rigid/row_batches.h"
+#include "engine/rigid/row_setup.h"
+
+class btPersistentManifold;
+class btRigidBody;
+
+namespace scree::rigid {
+
+class ContactSolver {
+ public:
+  using Manifolds = std::span<btPersistentManifold* const>;
+
+  // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other bodies of
+  // the manifolds are fixed. The same bits for any number of threads.
+  void solve(const std::vector<btRigidBody*>& bodies, Manifolds manifolds, const StepLengths& step, int iterations);
+
+ private:
+  struct Entry {
+    std::array<int, 2> ids;  // of its bodies
+    int count = 0;           // of points; 0: nothing to solve
+    int batch = 0;
+    std::array<int, 4> rows;  // of its points
+  };
+  void start(const std::vector<btRigidBody*>& bodies, double time_step);
+  void sort(Manifolds manifolds);
+  bool order_rows(int slabs);
+  void set_up(Manifolds manifolds, const StepLengths& step);
+  void solve_rows(int iterations);
+  void undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations);
+  void finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds);
+
+  // Kept from step to step for their memory.
+  std::vector<BodyStart> starts_;
+  std::vector<BodyChange> changes_;
+  std::vector<Entry> entries_;    // one per manifold
+  std::vector<ContactRow> rows_;  // by batches
+  std::vector<double> overlaps_;  // one per row, see overlap_impulse
+  Batches batches_;
+};
+
+}  // namespace scree::rigid

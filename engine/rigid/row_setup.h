@@ -1,0 +1,35 @@
+// A contact point between two bodies as rows of the solver.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "engine/rigid/contact_rows.h"
+
+namespace scree::rigid {
+
+// A body as it enters a step.
+struct BodyStart {
+  Eigen::Vector3d centre;           // [m]
+  Eigen::Vector3d linear, angular;  // with what gravity and its own spin add to them in the step [m/s], [1/s]
+  Eigen::Matrix3d inverse_inertia;  // world axes [1/(kg m2)]
+  double inverse_mass = 0;          // [1/kg]
+  const btRigidBody* body = nullptr;
+};
+
+struct StepLengths {
+  double time_step = 0;     // [s]
+  double erp = 0;           // part of an overlap that a step undoes [-]
+  double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
+};
+
+BodyStart start_of(const btRigidBody& body, double time_step);
+
+// The rows of a point, starting from the impulses of the last step; null: a fixed body. `ids` as the rows are to hold them.
+ContactRow contact_row(const btManifoldPoint& point, const std::array<const BodyStart*, 2>& bodies, std::array<int, 2> ids,
+                       const StepLengths& step);
+
+// The impulse that would undo the overlap of the point by itself, zero if it does not overlap.
+double overlap_impulse(const btManifoldPoint& point, const Row& normal, const StepLengths& step);
+
+}  // namespace scree::rigid
