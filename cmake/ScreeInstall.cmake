@@ -56,7 +56,9 @@ set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME scree)
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SHLIBDEPS ON)
 # Loaded by name, which dpkg-shlibdeps does not see.
 string(REGEX REPLACE "[.]so[.]" "" gmsh_package ${gmsh_soname})
-set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS ${gmsh_package})
+string(REGEX REPLACE "[.]so$" "" hypre_package ${hypre_soname})
+string(TOLOWER ${hypre_package} hypre_package)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "${gmsh_package}, ${hypre_package}")
 set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_RECOMMENDS "xvfb, libgl1-mesa-dri, ffmpeg, gnuplot-nox, python3-numpy")
 set(CPACK_DEBIAN_DEVEL_PACKAGE_NAME libscree-dev)
 # What tools/packages.txt lists between "# libraries" and the next heading.

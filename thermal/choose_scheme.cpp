@@ -1,6 +1,6 @@
 #include "thermal/choose_scheme.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -12,20 +12,20 @@ namespace scree::thermal {
 namespace {
 
 // Measured on one core (README, "Which steps"): only their ratios matter.
-constexpr double seconds_per_entry = 1.6e-9;   // of K, in a product with two columns
-constexpr double seconds_per_flop = 2.5e-10;   // of a supernodal factorisation
-constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
-// What an implicit run takes in all, about.
-constexpr double factorisations = 12;
-constexpr double solves = 500;
-// What the symbolic analysis takes, an unknown [s].
-constexpr double seconds_per_unknown = 1e-5;
+constexpr double seconds_per_entry = 1.6e-9;  // of K, in a product with two columns
 
-// The least that implicit steps will cost: analysis, and solves with half the factor of a plane grid (31/4 n log2 n entries
-// with nested dissection; George, SIAM J. Numer. Anal. 10, 1973). Solids have more.
-double least_implicit(const HeatModel& model) {
-  const auto unknowns = static_cast<double>(model.capacity.size());
-  return seconds_per_unknown * unknowns + solves * seconds_per_factor * 4 * unknowns * std::log2(unknowns);
+// The least that implicit steps will cost.
+double least_implicit(const HeatModel& model, LinearSolver solver) {
+  const double multigrid = multigrid_seconds(model.conductance.nonZeros(), use_of_linear_steps);
+  const double cholesky = least_cholesky_seconds(static_cast<double>(model.capacity.size()), use_of_linear_steps);
+  if (solver == LinearSolver::automatic) return std::min(multigrid, cholesky);
+  return solver == LinearSolver::multigrid ? multigrid : cholesky;
+}
+
+ChosenScheme implicit(const HeatModel& model, LinearSolver solver, const std::string& why) {
+  auto scheme = make_implicit_scheme(model, solver);
+  const std::string of_solver = scheme->solver_cost().why;
+  return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};
 }
 
 ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
@@ -41,22 +41,21 @@ ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
 
 ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
   if (!can_be_stabilised(model)) {
-    return {make_implicit_scheme(model), "conditions or properties change, which stabilised explicit steps do not do"};
+    return implicit(model, options.solver, "conditions or properties change, which stabilised explicit steps do not do");
   }
   const double stable = stable_step(model).step;
   const double products = stabilised_products(stable, options);
   const double stabilised = products * seconds_per_entry * static_cast<double>(model.conductance.nonZeros());
-  if (stabilised < least_implicit(model)) {
+  if (stabilised < least_implicit(model, options.solver)) {
     return {make_stabilised_scheme(model, stable),
-            fmt::format("some {:.0f} products with K, less than a factorisation takes", products)};
+            fmt::format("some {:.0f} products with K, less than implicit steps take", products)};
   }
-  auto implicit = make_linear_scheme(model);
-  const FactorSize factor = implicit->factor_size();
-  const double direct = factorisations * seconds_per_flop * factor.flops + solves * seconds_per_factor * factor.entries;
-  const std::string figures = fmt::format("{:.0f} products with K or {:.3g} flops a factorisation: about {:.2g} s or {:.2g} s",
-                                          products, factor.flops, stabilised, direct);
-  if (stabilised < direct) return {make_stabilised_scheme(model, stable), figures};
-  return {std::move(implicit), figures};
+  auto scheme = make_linear_scheme(model, options.solver);
+  const SolverCost cost = scheme->solver_cost();
+  const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or implicit steps, about {:.2g} s; {}",
+                                          products, stabilised, cost.seconds, cost.why);
+  if (stabilised < cost.seconds) return {make_stabilised_scheme(model, stable), figures};
+  return {std::move(scheme), figures};
 }
 
 }  // namespace
@@ -65,7 +64,7 @@ ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options) {
   if (model.shared_capacity) return fourth_order(model, options.integrator);
   switch (options.integrator) {
     case Integrator::implicit:
-      return {make_implicit_scheme(model), "asked for"};
+      return implicit(model, options.solver, "asked for");
     case Integrator::stabilised_explicit:
       return {make_stabilised_scheme(model), "asked for"};
     case Integrator::explicit_euler:

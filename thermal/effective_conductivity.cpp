@@ -89,7 +89,7 @@ class Sample {
       model_.fixed_nodes.push_back(node);
     }
     free_.emplace(model_);
-    solver_.emplace(model_, *free_);
+    solver_.emplace(model_, *free_, LinearSolver::automatic, use_of_steady_state);
     Linearised no_loss;
     no_loss.loss = Eigen::VectorXd::Zero(model_.capacity.size());
     solver_->prepare_steady(no_loss);

@@ -22,8 +22,8 @@ constexpr double rounding = 1e-12;      // of a temperature: an iteration that m
 
 class EnthalpyScheme : public TimeScheme {
  public:
-  explicit EnthalpyScheme(const HeatModel& model)
-      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_) {}
+  EnthalpyScheme(const HeatModel& model, LinearSolver solver)
+      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_, solver, use_of_newton_steps) {}
 
   Step step(const Instant& from, double length) override {
     scale_ = gamma * length;
@@ -47,7 +47,7 @@ class EnthalpyScheme : public TimeScheme {
     const Eigen::VectorXd carried = carry(from.error, heats);
     const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
     const Eigen::VectorXd local =
-        local_error(heats, capacity, [this](const Eigen::VectorXd& heat) { return solver_.solve(heat); });
+        local_error(heats, capacity, [this](const Eigen::VectorXd& heat) { return solver_.estimate(heat); });
 
     result.change = last.temperature - from.temperature;
     result.error = from.error + free_.scatter(carried + local);
@@ -70,6 +70,7 @@ class EnthalpyScheme : public TimeScheme {
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
+  [[nodiscard]] SolverCost solver_cost() const override { return solver_.cost(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {
     return "SDIRK2 (L-stable, second order) of the enthalpy, Newton's iteration, steps from the tolerance; " + solver_.name();
@@ -96,7 +97,7 @@ class EnthalpyScheme : public TimeScheme {
       if (slow && moved <= rounding * stage.temperature.lpNorm<Eigen::Infinity>()) return true;
       if (slow) linearise(stage);
       before = left;
-      const Eigen::VectorXd change = solver_.solve(residual);
+      const Eigen::VectorXd change = solver_.estimate(residual);
       moved = change.lpNorm<Eigen::Infinity>();
       stage.temperature += free_.scatter(change);
     }
@@ -107,9 +108,9 @@ class EnthalpyScheme : public TimeScheme {
   Eigen::VectorXd carry(const Eigen::VectorXd& error, StageHeats& heats) {
     const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
     const Eigen::VectorXd start = -scale_ * free_.gather(balance_.lost(error, linear_));
-    const Eigen::VectorXd d1 = solver_.solve(start);
+    const Eigen::VectorXd d1 = solver_.estimate(start);
     const Eigen::VectorXd first = capacity.cwiseProduct(d1);
-    const Eigen::VectorXd d2 = solver_.solve(first);
+    const Eigen::VectorXd d2 = solver_.estimate(first);
     heats.start -= start;
     heats.first -= first;
     heats.last -= from_first * (capacity.cwiseProduct(d2) - first) + first;
@@ -127,12 +128,12 @@ class EnthalpyScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model) {
-  return std::make_unique<EnthalpyScheme>(model);
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver) {
+  return std::make_unique<EnthalpyScheme>(model, solver);
 }
 
-std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model) {
-  return has_constant_properties(model) ? make_linear_scheme(model) : make_enthalpy_scheme(model);
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver) {
+  return has_constant_properties(model) ? make_linear_scheme(model, solver) : make_enthalpy_scheme(model, solver);
 }
 
 }  // namespace scree::thermal

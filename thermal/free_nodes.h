@@ -11,6 +11,7 @@ class FreeNodes {
 
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(nodes_.size()); }
   [[nodiscard]] Eigen::Index node(Eigen::Index unknown) const { return nodes_[unknown]; }
+  [[nodiscard]] Eigen::Index unknown(Eigen::Index node) const { return unknowns_[node]; }  // -1 of a fixed one
 
   // The free rows of `all`, and back; fixed rows become zero.
   [[nodiscard]] Eigen::MatrixXd gather(const Eigen::MatrixXd& all) const;

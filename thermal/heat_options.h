@@ -70,6 +70,13 @@ enum class Integrator {
   explicit_euler,       // eq. (8)
 };
 
+// How implicit steps and the steady state solve their equations.
+enum class LinearSolver {
+  automatic,  // whichever costs less, if it has the memory
+  cholesky,   // a factorisation; LU where k depends on temperature
+  multigrid,  // conjugate gradients with algebraic multigrid
+};
+
 // How a block's inside is resolved.
 enum class BlockModel {
   meshed,     // a temperature per node
@@ -95,12 +102,13 @@ struct BlockOptions {
 };
 
 struct TimeOptions {
-  bool steady = false;      // the steady state itself; nothing else here has a use then
+  bool steady = false;      // the steady state itself; of the others only the solver has a use then
   double until = 0;         // [s]
   double tolerance = 0.1;   // largest accepted time error [K]
   double output_every = 0;  // [s]; states are exact at its multiples
   Integrator integrator = Integrator::automatic;
-  std::optional<double> step;  // explicit only; nothing: the largest stable one
+  LinearSolver solver = LinearSolver::automatic;  // of the steady state, too
+  std::optional<double> step;                     // explicit only; nothing: the largest stable one
 };
 
 // How the error goes down with the mesh size.

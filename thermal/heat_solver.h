@@ -1,48 +1,64 @@
-// Solves (C + s J) x = b for the free nodes: one symbolic analysis, one numeric factorisation per matrix.
+// Solves (C + s J) x = b for the free nodes, by a factorisation or by multigrid, whichever is asked for or costs less.
 //
-// J = K + diag(loss) is symmetric: supernodal Cholesky (CHOLMOD). With a conductivity that depends on temperature, J = K + U
-// diag(k)
-// + diag(loss) is not: LU of the same pattern (UMFPACK).
+// J = K + diag(loss) is symmetric: supernodal Cholesky (CHOLMOD), one symbolic analysis and a numeric factorisation per matrix,
+// or conjugate gradients with algebraic multigrid. With a conductivity that depends on temperature, J = K + U diag(k) +
+// diag(loss) is not: LU of the same pattern (UMFPACK).
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
-#include "thermal/time_scheme.h"
+#include "thermal/multigrid.h"
+#include "thermal/solver_cost.h"
 
 namespace scree::thermal {
 
 class HeatSolver {
  public:
-  HeatSolver(const HeatModel& model, const FreeNodes& free);  // refers to the free nodes
+  // Refers to both. Throws InputError if multigrid is asked for and cannot do it.
+  HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use);
   ~HeatSolver();
 
-  // Factorises C + scale J [J/K]; scale in seconds. Throws RunError if that cannot be done.
+  // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if that cannot be done.
   void prepare(const Linearised& at, double scale);
 
-  // Finds out what a factorisation will cost; the symbolic part of it, which prepare() then has no more to do. Symmetric J.
-  FactorSize analyse(const Linearised& at);
-
-  // Factorises J alone [W/K].
+  // For J alone [W/K].
   void prepare_steady(const Linearised& at);
 
   // Each column of `rhs` [J] to its solution [K]. Needs prepare().
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
-  [[nodiscard]] std::int64_t factorisations() const { return factorisations_; }
+  // To six digits, where an iteration can save by that: estimates, and what is corrected again.
+  [[nodiscard]] Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) const;
+
+  // Whether solutions are as exact as an iteration makes them, instead of as rounding.
+  [[nodiscard]] bool iterates() const { return multigrid_ != nullptr; }
+
+  [[nodiscard]] std::int64_t factorisations() const { return factorisations_; }  // or set-ups of the multigrid
   [[nodiscard]] std::string name() const;
+  [[nodiscard]] const SolverCost& cost() const { return cost_; }
 
  private:
   struct Factor;  // keeps the libraries out of this header
+  void choose(const HeatModel& model, LinearSolver asked, const SolverUse& use);
+  void take_multigrid(const HeatModel& model);
   [[nodiscard]] SparseMatrix matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const;
+  void make_ready(const Eigen::VectorXd& diagonal, const Linearised& at, double scale);
   void factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale);
+  [[nodiscard]] Eigen::MatrixXd iterate(const Eigen::MatrixXd& rhs, double accuracy) const;
+  [[nodiscard]] Eigen::MatrixXd checked(Eigen::MatrixXd solution) const;
 
   const FreeNodes& free_;
-  SparseMatrix conductance_;       // of the free nodes: its lower triangle, or all of it beside U
-  SparseMatrix unit_conductance_;  // all of U's
-  std::unique_ptr<Factor> factor_;
+  SparseMatrix conductance_;              // of the free nodes, for a factor: the lower triangle, or all of it beside U
+  SparseMatrix unit_conductance_;         // all of U's
+  std::unique_ptr<Factor> factor_;        // this
+  std::unique_ptr<Multigrid> multigrid_;  // or that
+  SolverCost cost_;
+  Eigen::VectorXd diagonal_;  // what it is ready for
+  double scale_ = 0;
   std::int64_t factorisations_ = 0;
 };
 

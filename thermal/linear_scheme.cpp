@@ -23,14 +23,14 @@ constexpr int refinements = 1;
 
 class LinearScheme : public TimeScheme {
  public:
-  explicit LinearScheme(const HeatModel& model)
+  LinearScheme(const HeatModel& model, LinearSolver solver)
       : model_(model),
         drives_(model),
         balance_(model),
         free_(model),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
         capacity_(free_.gather(linear_.capacity)),
-        solver_(model, free_) {}
+        solver_(model, free_, solver, use_of_linear_steps) {}
 
   Step step(const Instant& from, double length) override {
     if (length != prepared_) prepare(length);
@@ -86,7 +86,7 @@ class LinearScheme : public TimeScheme {
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
-  FactorSize factor_size() override { return solver_.analyse(linear_); }
+  [[nodiscard]] SolverCost solver_cost() const override { return solver_.cost(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {
     return "SDIRK2 (L-stable, second order) with steps from the tolerance; " + solver_.name();
@@ -98,11 +98,13 @@ class LinearScheme : public TimeScheme {
     const Eigen::VectorXd conductance = free_.gather(model_.conductance.diagonal() + linear_.loss);
     stiff_ = free_.size() > 0 && gamma * length * conductance.cwiseQuotient(capacity_).maxCoeff() > stiffness_of_refinement;
     prepared_ = length;
+    whole_ = -missing(Eigen::VectorXd::Zero(free_.size()), Eigen::VectorXd::Ones(free_.size())).sum();
   }
 
   // A factorisation loses heat in proportion to its rounding times gamma h K/C. Where joints are much stiffer than the step is
   // short, one refinement brings it back: the residual, made of pairwise flows, knows to the bit what was lost.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& heat) const {
+    if (solver_.iterates()) return iterated(heat);
     Eigen::MatrixXd change = solver_.solve(heat);
     if (!stiff_) return change;
     for (int refinement = 0; refinement < refinements; ++refinement) {
@@ -115,6 +117,26 @@ class LinearScheme : public TimeScheme {
     return change;
   }
 
+  // The temperatures as exactly as can be, the error to some digits. What is left of the residual's sum is heat that came from
+  // nowhere: a uniform change of all temperatures puts it right, which is the best such change in the energy norm, too.
+  [[nodiscard]] Eigen::MatrixXd iterated(const Eigen::MatrixXd& heat) const {
+    Eigen::MatrixXd change(heat.rows(), 2);
+    change.col(0) = solver_.solve(heat.col(0));
+    change.col(1) = solver_.estimate(heat.col(1));
+    for (int refinement = 0; stiff_ && refinement < refinements; ++refinement) {
+      change.col(0) += solver_.estimate(missing(heat.col(0), change.col(0)));
+    }
+    const double left = missing(heat.col(0), change.col(0)).sum();
+    change.col(0).array() += left / whole_;
+    return change;
+  }
+
+  // Of the heat, after the change.
+  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& heat, const Eigen::VectorXd& change) const {
+    const Eigen::VectorXd lost = free_.gather(balance_.lost(free_.scatter(change), linear_));
+    return heat - capacity_.cwiseProduct(change) - gamma * prepared_ * lost;
+  }
+
   // Of the companion V = T - error, from gamma h F0 and the increments of both.
   [[nodiscard]] Eigen::VectorXd local_error(const Eigen::MatrixXd& heat0, const Eigen::MatrixXd& d1,
                                             const Eigen::MatrixXd& d2) const {
@@ -123,7 +145,7 @@ class LinearScheme : public TimeScheme {
     heats.start = of_companion(heat0);
     heats.first = capacity_.cwiseProduct(of_companion(d1));
     heats.last = from_first * capacity_.cwiseProduct(of_companion(d2 - d1)) + heats.first;
-    return sdirk2::local_error(heats, capacity_, [this](const Eigen::VectorXd& heat) { return solver_.solve(heat); });
+    return sdirk2::local_error(heats, capacity_, [this](const Eigen::VectorXd& heat) { return solver_.estimate(heat); });
   }
 
   const HeatModel& model_;
@@ -134,13 +156,14 @@ class LinearScheme : public TimeScheme {
   Eigen::VectorXd capacity_;  // of the free nodes [J/K]
   HeatSolver solver_;
   double prepared_ = 0;  // the step the solver is prepared for [s]
+  double whole_ = 0;     // the sum of all entries of M [J/K]
   bool stiff_ = false;   // whether solutions are refined
 };
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model) {
-  return std::make_unique<LinearScheme>(model);
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver) {
+  return std::make_unique<LinearScheme>(model, solver);
 }
 
 }  // namespace scree::thermal

@@ -27,8 +27,15 @@ constexpr double rounding = 1e-12;  // of a temperature
 
 class SteadySolver {
  public:
-  explicit SteadySolver(const HeatModel& model)
-      : model_(model), drives_(model), drive_(drives_.at(0)), balance_(model), free_(model), solver_(model, free_) {}
+  SteadySolver(const HeatModel& model, LinearSolver solver)
+      : model_(model),
+        drives_(model),
+        drive_(drives_.at(0)),
+        balance_(model),
+        free_(model),
+        solver_(model, free_, solver, use_of_steady_state) {}
+
+  [[nodiscard]] std::string words() const { return fmt::format("steady state; {} ({})", solver_.name(), solver_.cost().why); }
 
   HeatState solve() {
     HeatState state;
@@ -136,13 +143,18 @@ class SteadySolver {
 
 }  // namespace
 
-HeatState steady_state(const HeatModel& model) {
+SteadyState find_steady_state(const HeatModel& model, LinearSolver solver) {
   if (Drives(model).vary()) {
     throw InputError(problem("heat.steady", "true", "must have temperatures, flows and coefficients that do not change in time",
                              "Leave the time out of expressions and tables, or run in time"));
   }
   check_anchors(model);
-  return SteadySolver(model).solve();
+  SteadySolver steady(model, solver);
+  return {steady.solve(), steady.words()};
+}
+
+HeatState steady_state(const HeatModel& model) {
+  return find_steady_state(model, LinearSolver::automatic).state;
 }
 
 }  // namespace scree::thermal

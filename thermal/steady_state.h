@@ -2,6 +2,7 @@
 #pragma once
 
 #include "thermal/heat_run.h"
+#include "thermal/solver_cost.h"
 
 namespace scree::thermal {
 
@@ -11,6 +12,13 @@ namespace scree::thermal {
 // Throws InputError if something changes in time, and for blocks from which no path leads to a held temperature or to
 // surroundings: nothing says how warm they are, and what is put into them cannot leave. Throws RunError if the iteration does
 // not converge.
+struct SteadyState {
+  HeatState state;
+  std::string solver;  // in words, for the summary
+};
+SteadyState find_steady_state(const HeatModel& model, LinearSolver solver);
+
+// By whichever solver costs less.
 HeatState steady_state(const HeatModel& model);
 
 }  // namespace scree::thermal

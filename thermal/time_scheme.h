@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thermal/flow_network.h"
+#include "thermal/solver_cost.h"
 
 namespace scree::thermal {
 
@@ -33,11 +34,6 @@ struct Step {
   double local_error = 0;  // largest entry of this step's own contribution to the error [K]
 };
 
-struct FactorSize {
-  double entries = 0;
-  double flops = 0;
-};
-
 // A one-step scheme with its estimate of the global error. Beside the temperatures T a scheme follows, in exact arithmetic, a
 // second solution V of one order more; error = T - V. Kept as the difference, that is: the error is carried by the scheme's
 // own (linearised) operator, and each step adds the difference between the two schemes applied to V.
@@ -56,8 +52,8 @@ class TimeScheme {
   [[nodiscard]] virtual std::int64_t factorisations() const { return 0; }
   // What its flows need to be summed in.
   [[nodiscard]] virtual Sums sums() const { return Sums::extended; }
-  // Of one factorisation; nothing for a scheme without.
-  virtual FactorSize factor_size() { return {}; }
+  // Of what solves its equations; nothing for a scheme without.
+  [[nodiscard]] virtual SolverCost solver_cost() const { return {}; }
   [[nodiscard]] virtual std::string name() const = 0;
 
  protected:
@@ -67,9 +63,9 @@ class TimeScheme {
 };
 
 // All refer to the model. The implicit scheme, linear where the properties are constant.
-std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model);
-std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model);
-std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model);
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 // `stable`: stable_step() of the model, if it is known already [s].

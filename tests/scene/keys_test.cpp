@@ -188,6 +188,7 @@ std::vector<Change> heat_changes() {
           {"heat.tolerance", {}, "heat.tolerance=1"},
           {"heat.integrator", {}, "heat.integrator=explicit_euler"},
           {"heat.space_order", {}, "heat.space_order=4"},
+          {"heat.solver", {}, "heat.solver=multigrid"},
           {"heat.step", {"heat.integrator=explicit_euler"}, "heat.step=1"},
           {"output.every", {}, "output.every=1"},
           {"output.frames_every", {"output.every=1"}, "output.frames_every=3"},

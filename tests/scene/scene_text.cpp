@@ -130,8 +130,8 @@ std::string text_of(const thermal::HeatOptions& heat) {
   for (const auto& [body, model] : heat.blocks.of_body) text += fmt::format(" {} {}", body.value(), static_cast<int>(model));
   text += fmt::format("\nspace order {}", static_cast<int>(heat.space_order));
   const thermal::TimeOptions& time = heat.time;
-  return text + fmt::format("\ntime {} {} {} {} {}", time.until, time.tolerance, time.output_every,
-                            static_cast<int>(time.integrator), text_of(time.step));
+  return text + fmt::format("\ntime {} {} {} {} {} {}", time.until, time.tolerance, time.output_every,
+                            static_cast<int>(time.integrator), static_cast<int>(time.solver), text_of(time.step));
 }
 
 }  // namespace

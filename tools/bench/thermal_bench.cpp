@@ -1,5 +1,6 @@
 // Times the inner pieces of the heat stage: assembly, products with K beside the bandwidth of the memory, the solver, writing.
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -97,25 +98,30 @@ void assembly(benchmark::State& state, Grid grid) {
   state.counters["nodes"] = static_cast<double>(mesh.nodes.size());
 }
 
-void factorisation(benchmark::State& state) {
-  const thermal::HeatModel model = model_of(cube(state.range(0), Grid::shaken));
-  const thermal::FreeNodes free(model);
-  thermal::Drives drives(model);
-  const thermal::Linearised linear = thermal::HeatBalance(model).linearised(model.initial, drives.at(0));
-  thermal::HeatSolver solver(model, free);
+// A shaken cube by either solver: what a new matrix takes, and then a right side.
+struct Equations {
+  Equations(std::int64_t cells, thermal::LinearSolver kind) : model(model_of(cube(cells, Grid::shaken))), free(model) {
+    thermal::Drives drives(model);
+    linear = thermal::HeatBalance(model).linearised(model.initial, drives.at(0));
+    solver.emplace(model, free, kind, thermal::use_of_linear_steps);
+  }
+  thermal::HeatModel model;
+  thermal::FreeNodes free;
+  thermal::Linearised linear;
+  std::optional<thermal::HeatSolver> solver;
+};
+
+void new_matrix(benchmark::State& state, thermal::LinearSolver kind) {
+  Equations equations(state.range(0), kind);
   double step = 100;
-  for (auto _ : state) solver.prepare(linear, step *= 1.01);
+  for (auto _ : state) equations.solver->prepare(equations.linear, step *= 1.01);
 }
 
-void solve(benchmark::State& state) {
-  const thermal::HeatModel model = model_of(cube(state.range(0), Grid::shaken));
-  const thermal::FreeNodes free(model);
-  thermal::Drives drives(model);
-  const thermal::Linearised linear = thermal::HeatBalance(model).linearised(model.initial, drives.at(0));
-  thermal::HeatSolver solver(model, free);
-  solver.prepare(linear, 100);
-  const Eigen::MatrixXd heat = Eigen::MatrixXd::Random(free.size(), 2);
-  for (auto _ : state) benchmark::DoNotOptimize(solver.solve(heat).data());
+void solve(benchmark::State& state, thermal::LinearSolver kind) {
+  Equations equations(state.range(0), kind);
+  equations.solver->prepare(equations.linear, 100);
+  const Eigen::MatrixXd heat = Eigen::MatrixXd::Random(equations.free.size(), 1);
+  for (auto _ : state) benchmark::DoNotOptimize(equations.solver->solve(heat).data());
 }
 
 void frame(benchmark::State& state) {
@@ -144,8 +150,13 @@ BENCHMARK_CAPTURE(product, unlike_cells, Grid::shaken)->Apply(threads);
 BENCHMARK_CAPTURE(product, equal_cells, Grid::even)->Apply(threads);
 BENCHMARK_CAPTURE(assembly, unlike_cells, Grid::shaken)->Apply(threads);
 BENCHMARK_CAPTURE(assembly, equal_cells, Grid::even)->Apply(threads);
-BENCHMARK(factorisation)->Unit(benchmark::kMillisecond)->Arg(15)->Arg(31);
-BENCHMARK(solve)->Unit(benchmark::kMillisecond)->Arg(15)->Arg(31);
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->ArgName("cells")->Unit(benchmark::kMillisecond)->Arg(15)->Arg(31)->Arg(47)->Arg(63);
+}
+BENCHMARK_CAPTURE(new_matrix, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes);
+BENCHMARK_CAPTURE(new_matrix, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes);
+BENCHMARK_CAPTURE(solve, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes);
+BENCHMARK_CAPTURE(solve, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes);
 BENCHMARK(frame)->Unit(benchmark::kMillisecond)->Arg(31)->Arg(74);
 
 }  // namespace

@@ -32,7 +32,7 @@ Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) 
   run::join(scene_, pile_);
   model_ = std::make_shared<const thermal::HeatModel>(run::heat_model(scene_, pile_));
   if (scene_.heat->time.steady) {
-    steady_ = thermal::steady_state(*model_);
+    steady_ = thermal::find_steady_state(*model_, scene_.heat->time.solver).state;
   } else {
     run_.emplace(model_, scene_.heat->time, std::nullopt);
   }

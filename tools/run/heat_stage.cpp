@@ -62,8 +62,9 @@ template <int dim>
 void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
   HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, *outcome.model, std::nullopt);
   if (context.estimate_space_error) recorder.estimate_space_error();
-  outcome.state = thermal::steady_state(*outcome.model);
-  outcome.solver = "steady state";
+  auto steady = thermal::find_steady_state(*outcome.model, context.scene.heat->time.solver);
+  outcome.state = std::move(steady.state);
+  outcome.solver = std::move(steady.solver);
   recorder.record(outcome.state);
   recorder.finish();
 }

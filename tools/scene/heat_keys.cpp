@@ -117,6 +117,9 @@ Keys block_keys() {
 Keys time_keys() {
   const thermal::TimeOptions by_default;
   const Condition in_time{.key = "heat.steady", .word = "true", .absent = true};
+  const auto without = [](const char* integrator) {
+    return Condition{.key = "heat.integrator", .word = integrator, .absent = true};
+  };
   return {
       row("heat.steady", flag, "Find the steady state directly, without steps in time.").fallback("false"),
       row("heat.until", quantity, "End of the simulated time.", q::time, positive).required().only({in_time}),
@@ -133,6 +136,10 @@ Keys time_keys() {
           .words({"2", "4"})
           .fallback("2")
           .only({in_time}),
+      row("heat.solver", word, "What solves implicit steps and the steady state: a factorisation or algebraic multigrid.")
+          .words({"auto", "cholesky", "multigrid"})
+          .fallback("auto")
+          .only({without("explicit_euler"), without("stabilised_explicit")}),
       row("heat.step", quantity, "Time step.", q::time, positive)
           .otherwise("largest stable one")
           .only({in_time, Condition{"heat.integrator", "explicit_euler"}}),

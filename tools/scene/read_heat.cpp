@@ -212,9 +212,16 @@ thermal::Integrator read_integrator(const std::string& word) {
   return word == "explicit_euler" ? explicit_euler : automatic;
 }
 
+thermal::LinearSolver read_solver(const std::string& word) {
+  using enum thermal::LinearSolver;
+  if (word == "cholesky") return cholesky;
+  return word == "multigrid" ? multigrid : automatic;
+}
+
 thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
   thermal::TimeOptions time;
   time.steady = heat.at("steady").flag();
+  if (const Checked* solver = heat.find("solver")) time.solver = read_solver(solver->text);
   if (time.steady) return time;
   time.until = heat.at("until").number();
   time.tolerance = heat.at("tolerance").number();

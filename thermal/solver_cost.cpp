@@ -1,0 +1,54 @@
+#include "thermal/solver_cost.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace scree::thermal {
+
+namespace {
+
+// Measured on one core (README, "Solver"): only their ratios matter.
+constexpr double seconds_per_flop = 2.5e-10;   // of a supernodal factorisation
+constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
+constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
+constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
+constexpr double seconds_per_cycle = 1e-8;     // an entry of the matrix, in an iteration
+// A solve of a step is a column to full accuracy or one to some digits, or both.
+constexpr double cycles_per_solve = 19;
+
+// What a factor may take: with the matrices and the model beside it, a computer of 16 GiB bears that.
+constexpr double most_bytes = 8e9;
+
+double bytes(const FactorSize& factor) {
+  return static_cast<double>(sizeof(double)) * factor.entries;
+}
+
+}  // namespace
+
+double cholesky_seconds(const FactorSize& factor, const SolverUse& use) {
+  return use.matrices * seconds_per_flop * factor.flops + use.solves * seconds_per_factor * factor.entries;
+}
+
+double multigrid_seconds(std::int64_t entries, const SolverUse& use) {
+  return static_cast<double>(entries) * (use.matrices * seconds_per_setup + use.solves * cycles_per_solve * seconds_per_cycle);
+}
+
+// Solves with half the factor of a plane grid (31/4 n log2 n entries with nested dissection; George, SIAM J. Numer. Anal. 10,
+// 1973). Solids have more.
+double least_cholesky_seconds(double unknowns, const SolverUse& use) {
+  return seconds_per_unknown * unknowns + use.solves * seconds_per_factor * 4 * unknowns * std::log2(unknowns);
+}
+
+ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const SolverUse& use) {
+  const double multigrid = multigrid_seconds(entries, use);
+  if (!factor.possible) return {LinearSolver::multigrid, {multigrid, "a factor would have too many entries"}};
+  const double cholesky = cholesky_seconds(factor, use);
+  const std::string figures =
+      fmt::format("a factorisation of {:.3g} flops and {:.2g} GB: about {:.2g} s; multigrid about {:.2g} s", factor.flops,
+                  bytes(factor) / 1e9, cholesky, multigrid);
+  if (bytes(factor) > most_bytes || multigrid < cholesky) return {LinearSolver::multigrid, {multigrid, figures}};
+  return {LinearSolver::cholesky, {cholesky, figures}};
+}
+
+}  // namespace scree::thermal
