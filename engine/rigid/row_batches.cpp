@@ -24,18 +24,17 @@ int longest_axis(const std::vector<Eigen::Vector3d>& centres) {
 }  // namespace
 
 std::vector<int> slabs_of(const std::vector<Eigen::Vector3d>& centres, int slabs) {
-  if (centres.empty() || slabs < 2) return std::vector<int>(centres.size(), 0);
+  std::vector<int> result(centres.size(), 0);
+  if (centres.empty() || slabs < 2) return result;
   const int axis = longest_axis(centres);
   std::vector<double> along;
   for (std::size_t i = 0; i < centres.size(); i += 1 + centres.size() / samples) along.push_back(centres[i][axis]);
   std::sort(along.begin(), along.end());
   std::vector<double> cuts;
   for (int i = 1; i < slabs; ++i) cuts.push_back(along[along.size() * i / slabs]);
-  std::vector<int> result;
-  result.reserve(centres.size());
-  for (const auto& centre : centres) {
-    result.push_back(static_cast<int>(std::upper_bound(cuts.begin(), cuts.end(), centre[axis]) - cuts.begin()));
-  }
+  std::transform(centres.begin(), centres.end(), result.begin(), [&](const Eigen::Vector3d& centre) {
+    return static_cast<int>(std::upper_bound(cuts.begin(), cuts.end(), centre[axis]) - cuts.begin());
+  });
   return result;
 }
 
