@@ -11,6 +11,7 @@
 #include "contact/touch.h"
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
+#include "engine/base/huge_pages.h"
 
 namespace scree::contact {
 
@@ -99,6 +100,8 @@ void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) visit(FaceId{f}, count, count);
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
+  set.contacts.reserve(before.back());
+  prefer_huge_pages(set.contacts.data(), before.back() * sizeof(Contact<dim>));
   set.contacts.resize(before.back());
   for_chunks(faces, [&](Chunk chunk) {
     Contact<dim>* next = set.contacts.data() + before[chunk.number];
@@ -123,8 +126,12 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
   ContactSet<dim> set;
   if (uses(options, Model::semi_spring)) add_semi_springs(surface, options, set);
   if (uses(options, Model::overlap)) {
-    const auto overlaps = overlap_contacts(surface, options);
-    set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
+    auto overlaps = overlap_contacts(surface, options);
+    if (set.contacts.empty()) {
+      set.contacts = std::move(overlaps);
+    } else {
+      set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
+    }
   }
   return set;
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
+#include "engine/base/huge_pages.h"
 
 namespace scree::contact {
 
@@ -56,19 +58,59 @@ void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
   }
 }
 
-// Pairs that cheap bounds do not dismiss, ascending.
+// Pairs by their first face.
+struct OrderedPairs {
+  std::vector<std::size_t> begin;  // of each face's pairs, and the end
+  std::vector<FaceId> second;      // ascending for each face
+};
+
+// In the order of their faces, which takes no sorting of them all: each is put where its first face's are, and those are few.
+OrderedPairs ordered(std::vector<FacePairs>&& parts, std::size_t faces) {
+  OrderedPairs pairs{std::vector<std::size_t>(faces + 2, 0), {}};
+  for (const FacePairs& part : parts) {
+    for (const auto& pair : part) ++pairs.begin[pair.first.index() + 2];
+  }
+  std::partial_sum(pairs.begin.begin(), pairs.begin.end(), pairs.begin.begin());
+  pairs.second.resize(pairs.begin.back());
+  for (FacePairs& part : parts) {
+    for (const auto& [first, second] : part) pairs.second[pairs.begin[first.index() + 1]++] = second;
+    part = {};
+  }
+  pairs.begin.pop_back();
+  const auto place = [&](std::size_t at) { return pairs.second.begin() + static_cast<std::ptrdiff_t>(at); };
+  for_chunks(faces, [&](Chunk chunk) {
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) std::sort(place(pairs.begin[f]), place(pairs.begin[f + 1]));
+  });
+  return pairs;
+}
+
+// Pairs that cheap bounds do not dismiss.
 template <int dim, class Wanted>
-FacePairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
+OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
   const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
   const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
   std::vector<FacePairs> found(chunk_count(table.shells.size()));
   visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
     if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, found[chunk]);
   });
-  FacePairs pairs;
-  for (const FacePairs& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  return ordered(std::move(found), surface.faces.size());
+}
+
+// One after another.
+template <class Item>
+std::vector<Item> joined(std::vector<std::vector<Item>>&& parts) {
+  std::vector<std::size_t> before(parts.size() + 1, 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
+  std::vector<Item> items;
+  items.reserve(before.back());
+  prefer_huge_pages(items.data(), before.back() * sizeof(Item));
+  items.resize(before.back());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    std::copy(parts[i].begin(), parts[i].end(), items.begin() + static_cast<std::ptrdiff_t>(before[i]));
+    parts[i] = {};
+  }
+  return items;
 }
 
 template <int dim>
@@ -94,28 +136,23 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
 // faces, first < second: make(first, second, points, into) appends to `into`. On all threads.
 template <class Item, int dim, class Wanted, class Make>
 std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
-  const FacePairs pairs = near_pairs(surface, tolerance, wanted);
-  std::vector<std::vector<Item>> parts(chunk_count(pairs.size()));
-  for_chunks(pairs.size(), [&](Chunk chunk) {
+  const OrderedPairs pairs = near_pairs(surface, tolerance, wanted);
+  std::vector<std::vector<Item>> parts(chunk_count(surface.faces.size()));
+  for_chunks(surface.faces.size(), [&](Chunk chunk) {
     std::vector<OverlapPoint<dim>> points;
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const auto& [first, second] = pairs[i];
-      const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
-                                           surface.normals[second]);
-      if (!pair) continue;
-      overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
-      if (!points.empty()) make(first, second, points, parts[chunk.number]);
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+      const FaceId first{f};
+      for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
+        const FaceId second = pairs.second[i];
+        const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
+                                             surface.normals[second]);
+        if (!pair) continue;
+        overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
+        if (!points.empty()) make(first, second, points, parts[chunk.number]);
+      }
     }
   });
-  std::size_t count = 0;
-  for (const auto& part : parts) count += part.size();
-  std::vector<Item> items;
-  items.reserve(count);
-  for (auto& part : parts) {
-    items.insert(items.end(), part.begin(), part.end());
-    part = {};
-  }
-  return items;
+  return joined(std::move(parts));
 }
 
 }  // namespace
