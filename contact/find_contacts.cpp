@@ -101,7 +101,7 @@ void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
   set.contacts.reserve(before.back());
-  prefer_huge_pages(set.contacts.data(), before.back() * sizeof(Contact<dim>));
+  make_huge_pages(set.contacts.data(), before.back() * sizeof(Contact<dim>));
   set.contacts.resize(before.back());
   for_chunks(faces, [&](Chunk chunk) {
     Contact<dim>* next = set.contacts.data() + before[chunk.number];

@@ -103,7 +103,7 @@ std::vector<Item> joined(std::vector<std::vector<Item>>&& parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
   std::vector<Item> items;
   items.reserve(before.back());
-  prefer_huge_pages(items.data(), before.back() * sizeof(Item));
+  make_huge_pages(items.data(), before.back() * sizeof(Item));
   items.resize(before.back());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/base/chunks.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -78,13 +79,12 @@ std::vector<ShapeAt<dim>> shapes_at(const CellPoints<dim>& points, double where)
     std::array<double, 3> local = corner_signs[point];
     for (double& coordinate : local) coordinate *= where;
     shapes.emplace_back(points, local);
-    if (!(shapes.back().volume > 0)) {
-      throw InputError(
-          problem(key, "4", "must not be asked of cells whose sides fold over", "Mesh the body with better cells"));
-    }
   }
   return shapes;
 }
+
+// Where Gauss's points lie on the way.
+const double gauss = 1 / std::sqrt(3.0);
 
 bool is_parallelepiped(const CellPoints<3>& points) {
   const Point<3> u = points[1] - points[0], v = points[3] - points[0], w = points[4] - points[0];
@@ -95,6 +95,27 @@ bool is_parallelepiped(const CellPoints<3>& points) {
     worst = std::max(worst, (points[a] - expected).norm());
   }
   return worst <= parallel_tolerance * (u + v + w).norm();
+}
+
+// The multilinear map of a cell turns over at none of Gauss's points.
+template <int dim>
+bool unfolds(const CellPoints<dim>& points) {
+  if constexpr (dim == 3) {
+    if (is_parallelepiped(points)) return true;  // the mesh has positive cells only
+  }
+  const auto shapes = shapes_at<dim>(points, gauss);
+  return std::all_of(shapes.begin(), shapes.end(), [](const ShapeAt<dim>& at) { return at.volume > 0; });
+}
+
+template <int dim>
+bool any_folds(const mesh::BlockMesh<dim>& mesh) {
+  std::vector<char> folds(chunk_count(mesh.cells.size()), 0);
+  for_chunks(mesh.cells.size(), [&](Chunk chunk) {
+    for (std::size_t c = chunk.begin; c < chunk.end; ++c) {
+      if (!unfolds<dim>(cell_points(mesh, mesh.cells[CellId{c}]))) folds[chunk.number] = 1;
+    }
+  });
+  return std::find(folds.begin(), folds.end(), 1) != folds.end();
 }
 
 // C^-1 B x of the free nodes, for x that is zero at fixed ones or is a jump of their temperature.
@@ -109,7 +130,7 @@ Eigen::VectorXd shared(const HeatModel& model, const FlowNetwork& sharing, const
 template <int dim>
 void make_fourth_order(mesh::CellKind kind, const CellPoints<dim>& points, const Tensor<dim>& conductivity, int corner,
                        CornerOfCell& mixed) {
-  const std::vector<ShapeAt<dim>> by_gauss = shapes_at<dim>(points, 1 / std::sqrt(3.0));
+  const std::vector<ShapeAt<dim>> by_gauss = shapes_at<dim>(points, gauss);
   std::vector<ShapeAt<dim>> at_corners;
   if constexpr (dim == 3) {
     if (is_parallelepiped(points)) at_corners = shapes_at<dim>(points, 1);
@@ -151,6 +172,7 @@ void check_fourth_order(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId
       refuse("must have constant properties, but those of " + material.name + " vary with temperature", "Set space_order: 2");
     }
   }
+  if (any_folds(mesh)) refuse("must not be asked of cells whose sides fold over", "Mesh the body with better cells");
   if (!options.blocks.all_meshed()) refuse("must have meshed blocks", "Take heat.blocks out, or set space_order: 2");
 }
 

@@ -228,6 +228,9 @@ TEST(FourthOrder, WhatItCannotDoIsRefused) {
   test::Slab<2> slab;
   slab.cells = {2, 2};
   const auto triangles = test::slab_mesh<2>({slab});
+  auto folded = bricks<2>(1);
+  folded.nodes[folded.cells[CellId{0}].nodes[2]] = 0.1 * folded.nodes[folded.cells[CellId{0}].nodes[2]];
+  EXPECT_NE(refused(folded, fourth(test::options_for(folded, 300))).find("fold over"), std::string::npos);
   EXPECT_NE(refused(triangles, fourth(test::options_for(triangles, 300))).find("blocks of quadrilaterals"), std::string::npos);
 }
 

@@ -18,11 +18,12 @@ ROOT = HERE.parents[2]
 SCREE = ROOT / "build/release/bin/scree"
 DEBIAN_PYTHON = "/usr/bin/python3"  # the one that Debian's Python packages are installed for
 PACKAGES = ("python3-dolfinx", "freefem++", "calculix-ccx", "yade", "liggghts", "libbullet3.24", "libopenblas0-serial")
-COLOURS = ("#c23b22", "#e08a1e", "#8c564b", "#3d4a8f", "#5b8c5a", "#7a6fb0", "#777777")  # of programs in the plots
+COLOURS = ("#c23b22", "#e08a1e", "#8c564b", "#3d4a8f", "#5b8c5a", "#7a6fb0", "#777777", "#c77ba8", "#4aa3a3")  # of programs in the plots
 TIMES = ("processor", "wall", "loop")  # what rows state in seconds
 
-# One way of doing the work: `run(size, folder)` gives a row's entries. Sizes above `largest` are left out without --long.
-Program = collections.namedtuple("Program", "name setting run installed largest", defaults=(True, math.inf))
+# One way of doing the work: `run(size, folder)` gives a row's entries. Sizes above `largest` are left out without --long, those below
+# `smallest` always.
+Program = collections.namedtuple("Program", "name setting run installed largest smallest", defaults=(True, math.inf, 0))
 
 
 def run(words, folder, threads=1):
@@ -92,6 +93,8 @@ def measure(programs, sizes, arguments):
         for program in programs:
             name = f"{program.name}, {program.setting}"
             if arguments.only and not any(name.lower().startswith(word.lower()) for word in arguments.only):
+                continue
+            if size < program.smallest:
                 continue
             if not program.installed or (size > program.largest and not arguments.long):
                 print(f"{name}, {size}: " + ("left out (--long)" if program.installed else "not installed, left out"))
