@@ -1,10 +1,6 @@
 #include "thermal/heat_solver.h"
 
-#include <dlfcn.h>
-
 #include <fmt/format.h>
-#include <Eigen/CholmodSupport>
-#include <Eigen/UmfPackSupport>
 
 #include "engine/base/check.h"
 #include "thermal/problems.h"
@@ -12,14 +8,6 @@
 namespace scree::thermal {
 
 namespace {
-
-// A threaded BLAS may round differently with another number of threads, and a resumed run must repeat the same bits. Only
-// OpenBLAS has threads among Debian's free ones, and whether it is there is known when the program starts, not when it is
-// built.
-void use_one_blas_thread() {
-  using SetThreads = void (*)(int);
-  if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
-}
 
 // Residual over right side, in the energy norm. Increments of a step are at most some hundred kelvin: full accuracy is far
 // below any error of a step. The estimate of an error is a difference of like amounts, which takes up to three of the six
@@ -29,53 +17,7 @@ constexpr double some_digits = 1e-6;
 
 }  // namespace
 
-struct HeatSolver::Factor {
-  virtual ~Factor() = default;
-  virtual FactorSize analyse(const SparseMatrix& matrix) = 0;
-  virtual void factorise(const SparseMatrix& matrix) = 0;
-  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
-  [[nodiscard]] virtual bool sound() const = 0;
-  bool analysed = false;
-
-  struct Cholesky;
-  struct Lu;
-};
-
-struct HeatSolver::Factor::Cholesky : Factor {
-  Cholesky() { cholesky.cholmod().print = 0; }  // failures are ours to report
-  void factorise(const SparseMatrix& matrix) override {
-    if (!analysed) analyse(matrix);
-    cholesky.factorize(matrix);
-  }
-  FactorSize analyse(const SparseMatrix& matrix) override {
-    cholesky.analyzePattern(matrix);
-    analysed = true;
-    return {cholesky.cholmod().lnz, cholesky.cholmod().fl, cholesky.cholmod().status == CHOLMOD_OK};
-  }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return cholesky.solve(rhs); }
-  [[nodiscard]] bool sound() const override { return cholesky.info() == Eigen::Success; }
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Lower> cholesky;
-};
-
-struct HeatSolver::Factor::Lu : Factor {
-  void factorise(const SparseMatrix& matrix) override {
-    kept = matrix;  // the library reads it again when it solves
-    if (!analysed) analyse(kept);
-    lu.factorize(kept);
-  }
-  FactorSize analyse(const SparseMatrix& matrix) override {
-    lu.analyzePattern(matrix);
-    analysed = true;
-    return {};  // known only after the factorisation
-  }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return lu.solve(rhs); }
-  [[nodiscard]] bool sound() const override { return lu.info() == Eigen::Success; }
-  SparseMatrix kept;
-  Eigen::UmfPackLU<SparseMatrix> lu;
-};
-
 HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use) : free_(free) {
-  use_one_blas_thread();
   const bool symmetric = !model.varying || model.varying->unit_conductance.nonZeros() == 0;
   if (symmetric) {
     choose(model, asked, use);
@@ -87,7 +29,7 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   }
   conductance_ = free.block(model.conductance);
   unit_conductance_ = free.block(model.varying->unit_conductance);
-  factor_ = std::make_unique<Factor::Lu>();
+  factor_ = make_lu();
   cost_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
 }
 
@@ -101,7 +43,7 @@ void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const Solver
     return;
   }
   conductance_ = free_.lower_block(model.conductance);
-  factor_ = std::make_unique<Factor::Cholesky>();
+  factor_ = make_cholesky();
   if (free_.size() == 0) return;
   const FactorSize factor = factor_->analyse(conductance_);
   if (asked == LinearSolver::cholesky) {
@@ -160,7 +102,7 @@ void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at
 Eigen::MatrixXd HeatSolver::solve(const Eigen::MatrixXd& rhs) const {
   if (free_.size() == 0) return rhs;
   if (multigrid_) return iterate(rhs, full_accuracy);
-  SCREE_EXPECT(factor_->analysed);
+  SCREE_EXPECT(factor_->analysed());
   return checked(factor_->solve(rhs));
 }
 

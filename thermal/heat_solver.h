@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "thermal/direct_factor.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/multigrid.h"
@@ -42,7 +43,6 @@ class HeatSolver {
   [[nodiscard]] const SolverCost& cost() const { return cost_; }
 
  private:
-  struct Factor;  // keeps the libraries out of this header
   void choose(const HeatModel& model, LinearSolver asked, const SolverUse& use);
   void take_multigrid(const HeatModel& model);
   [[nodiscard]] SparseMatrix matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const;
@@ -54,7 +54,7 @@ class HeatSolver {
   const FreeNodes& free_;
   SparseMatrix conductance_;              // of the free nodes, for a factor: the lower triangle, or all of it beside U
   SparseMatrix unit_conductance_;         // all of U's
-  std::unique_ptr<Factor> factor_;        // this
+  std::unique_ptr<DirectFactor> factor_;  // this
   std::unique_ptr<Multigrid> multigrid_;  // or that
   SolverCost cost_;
   Eigen::VectorXd diagonal_;  // what it is ready for

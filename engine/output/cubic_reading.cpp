@@ -71,10 +71,13 @@ std::vector<double> fit(const Surroundings<dim>& around, int degree) {
   qr.setThreshold(rank_threshold);
   qr.compute(matrix);
   if (qr.rank() < columns) return {};
-  const Eigen::MatrixXd inverse = qr.solve(Eigen::MatrixXd::Identity(rows, rows));
-  std::vector<double> result;
-  for (Eigen::Index row = 0; row < rows; ++row) result.push_back(inverse(0, row) * weight[row]);
-  return result;
+  // The first row of the pseudo-inverse P R^-1 Q^T.
+  Eigen::VectorXd first = Eigen::VectorXd::Zero(rows);
+  first.head(columns) = qr.colsPermutation().transpose() * Eigen::VectorXd::Unit(columns, 0);
+  qr.matrixR().topRows(columns).triangularView<Eigen::Upper>().transpose().solveInPlace(first.head(columns));
+  first.applyOnTheLeft(qr.householderQ());
+  const Eigen::VectorXd weights = first.cwiseProduct(weight);
+  return {weights.begin(), weights.end()};
 }
 
 }  // namespace

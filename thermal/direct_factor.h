@@ -1,0 +1,46 @@
+// Factorisations of sparse matrices by CHOLMOD and UMFPACK, in a library of their own (libscree_factor.so) that is loaded by
+// the first of them: with BLAS and LAPACK behind it, it takes as long to load as a small run that needs none takes in all.
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "thermal/solver_cost.h"
+
+namespace scree::thermal {
+
+class DirectFactor {
+ public:
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  virtual ~DirectFactor() = default;
+
+  // The symbolic part; its size if that is known before the numeric one.
+  virtual FactorSize analyse(const Matrix& matrix) = 0;
+  // A matrix of the pattern that was analysed, or of the first if none was.
+  virtual void factorise(const Matrix& matrix) = 0;
+  // Needs factorise().
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
+  [[nodiscard]] virtual bool sound() const = 0;
+  [[nodiscard]] bool analysed() const { return analysed_; }
+
+ protected:
+  DirectFactor() = default;
+  DirectFactor(const DirectFactor&) = delete;
+  DirectFactor& operator=(const DirectFactor&) = delete;
+
+  bool analysed_ = false;
+};
+
+// Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.
+std::unique_ptr<DirectFactor> make_cholesky();
+// LU.
+std::unique_ptr<DirectFactor> make_lu();
+
+}  // namespace scree::thermal
+
+// What the library exports; the caller owns what they return.
+extern "C" scree::thermal::DirectFactor* scree_make_cholesky();
+extern "C" scree::thermal::DirectFactor* scree_make_lu();
