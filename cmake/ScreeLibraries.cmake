@@ -12,8 +12,8 @@ pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
+pkg_check_modules(hdf5 REQUIRED hdf5-serial)
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
-pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
              FiltersSources IOCore IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 
@@ -33,5 +33,19 @@ file(REAL_PATH ${hypre_api_LIBRARY} hypre_soname)
 cmake_path(GET hypre_soname FILENAME hypre_soname)
 scree_library(cholmod_api cholmod cholmod.h suitesparse)
 scree_library(umfpack_api umfpack umfpack.h suitesparse)
-scree_library(hdf5_cpp hdf5_serial_cpp H5Cpp.h hdf5/serial)
-target_link_libraries(hdf5_cpp INTERFACE PkgConfig::hdf5)
+
+# HDF5 is linked into programs: its shared library loads thirty others (curl, Kerberos, GnuTLS) to read files over networks, which
+# takes as long as a small run. Modules take the shared one, for which Debian's static one is not
+# built.
+find_path(hdf5_cpp_INCLUDE H5Cpp.h PATH_SUFFIXES hdf5/serial REQUIRED)
+find_package(ZLIB REQUIRED)
+add_library(hdf5_cpp INTERFACE IMPORTED GLOBAL)
+target_include_directories(hdf5_cpp SYSTEM INTERFACE ${hdf5_cpp_INCLUDE})
+foreach(library IN ITEMS hdf5_serial_cpp hdf5_serial)
+  find_library(${library}_STATIC lib${library}.a REQUIRED)
+  find_library(${library}_SHARED ${library} REQUIRED)
+  set(program $<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>)
+  target_link_libraries(hdf5_cpp INTERFACE $<${program}:${${library}_STATIC}> $<$<NOT:${program}>:${${library}_SHARED}>)
+endforeach()
+find_library(sz_LIBRARY sz REQUIRED)
+target_link_libraries(hdf5_cpp INTERFACE ${sz_LIBRARY} ZLIB::ZLIB ${CMAKE_DL_LIBS})

@@ -30,7 +30,6 @@ endfunction()
 # scree_late_library(NAME SOURCES ... LINKS ...): a shared library that engine/base/late_library.h loads. Of the rooms in it only
 # what it exports by `extern "C"` is seen from outside.
 set(late_libraries ${CMAKE_INSTALL_LIBDIR}/scree)
-list(APPEND CMAKE_BUILD_RPATH ${PROJECT_BINARY_DIR}/lib)
 function(scree_late_library name)
   cmake_parse_arguments(LATE "" "" "SOURCES;LINKS" ${ARGN})
   add_library(${name} MODULE ${LATE_SOURCES})

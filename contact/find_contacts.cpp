@@ -11,7 +11,6 @@
 #include "contact/touch.h"
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
-#include "engine/base/huge_pages.h"
 
 namespace scree::contact {
 
@@ -100,8 +99,6 @@ void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) visit(FaceId{f}, count, count);
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
-  set.contacts.reserve(before.back());
-  make_huge_pages(set.contacts.data(), before.back() * sizeof(Contact<dim>));
   set.contacts.resize(before.back());
   for_chunks(faces, [&](Chunk chunk) {
     Contact<dim>* next = set.contacts.data() + before[chunk.number];

@@ -8,7 +8,6 @@
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
-#include "engine/base/huge_pages.h"
 
 namespace scree::contact {
 
@@ -101,10 +100,7 @@ template <class Item>
 std::vector<Item> joined(std::vector<std::vector<Item>>&& parts) {
   std::vector<std::size_t> before(parts.size() + 1, 0);
   for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
-  std::vector<Item> items;
-  items.reserve(before.back());
-  make_huge_pages(items.data(), before.back() * sizeof(Item));
-  items.resize(before.back());
+  std::vector<Item> items(before.back());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::copy(parts[i].begin(), parts[i].end(), items.begin() + static_cast<std::ptrdiff_t>(before[i]));

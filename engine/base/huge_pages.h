@@ -10,8 +10,4 @@ namespace scree {
 // it does not do that, nothing happens; nor for arrays that are too small to gain.
 void prefer_huge_pages(void* data, std::size_t bytes);
 
-// The same, and has all threads make the pages, which the first to write there would otherwise do alone: clearing them takes a
-// fifth of what fills them.
-void make_huge_pages(void* data, std::size_t bytes);
-
 }  // namespace scree

@@ -1,6 +1,7 @@
 #include "engine/base/late_library.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -27,17 +28,25 @@ void* open(const std::filesystem::path& library) {
   return dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
 }
 
+// Where the library may stand, from the program or module: installed in bin or lib/python3/dist-packages; built in bin, python,
+// or tests/ROOM.
+std::vector<std::filesystem::path> places(const std::string& library) {
+  const std::filesystem::path folder = own_folder();
+  std::vector<std::filesystem::path> all;
+  for (const char* installed : {"..", "../../.."}) all.push_back(folder / installed / SCREE_PRIVATE_LIBDIR / library);
+  for (const char* built : {"..", "../.."}) all.push_back(folder / built / "lib" / library);
+  return all;
+}
+
 void* load(const std::string& library) {
-  if (void* const found = open(library)) return found;
-  const std::string first_reason = dlerror();
-  // bin, or lib/python3/dist-packages, below the same prefix.
-  for (const char* up : {"..", "../../.."}) {
-    const auto file = own_folder() / up / SCREE_PRIVATE_LIBDIR / library;
+  for (const std::filesystem::path& file : places(library)) {
     if (!std::filesystem::exists(file)) continue;
     if (void* const found = open(file)) return found;
     throw RunError(fmt::format("{} cannot be loaded: {}", file.string(), dlerror()));
   }
-  throw RunError(fmt::format("{} cannot be loaded: {}. It is installed with Scree", library, first_reason));
+  // Where the search path of a project that found Scree says.
+  if (void* const found = open(library)) return found;
+  throw RunError(fmt::format("{} cannot be loaded: {}. It is installed with Scree", library, dlerror()));
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace scree {
 
-// A function that the library exports. It is looked for where the program's own search path says, which is the build's or that
-// of a project that found Scree, and else beside the installed program or Python module. Once loaded it stays. Throws RunError
-// if it is not there.
+// A function that the library exports. It is looked for beside the program or Python module, built or installed, and else where
+// the program's search path says, which is that of a project that found Scree. Once loaded it stays. Throws RunError if it is
+// not there.
 void* late_symbol(const std::string& library, const std::string& name);
 
 template <class Function>

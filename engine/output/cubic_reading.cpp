@@ -63,7 +63,8 @@ std::vector<double> fit(const Surroundings<dim>& around, int degree) {
     for (Eigen::Index column = 0; column < columns; ++column) {
       matrix(row, column) = weight[row];
       for (int axis = 0; axis < dim; ++axis) {
-        matrix(row, column) *= std::pow(place[axis], monomials[static_cast<std::size_t>(column)][axis]);
+        for (int power = monomials[static_cast<std::size_t>(column)][axis]; power > 0; --power)
+          matrix(row, column) *= place[axis];
       }
     }
   }

@@ -1,5 +1,7 @@
 #include "engine/packing/hdf5_image.h"
 
+#include <algorithm>
+
 namespace scree::packing {
 
 namespace {
@@ -65,7 +67,11 @@ void Hdf5Image::put(const std::string& name, const std::vector<std::string>& val
   starts.reserve(values.size());
   for (const std::string& value : values) starts.push_back(value.c_str());
   const H5::DataSet set = file_.createDataSet(name, text_type(), rows_of(values.size(), 1), timeless());
-  if (!values.empty()) set.write(starts.data(), text_type());
+  if (values.empty()) return;
+  // Texts are converted on the way, in two buffers of 1 MB unless told otherwise, which are cleared for a name or two.
+  H5::DSetMemXferPropList transfer;
+  transfer.setBuffer(std::clamp<std::size_t>(16 * values.size(), 1 << 10, 1 << 20), nullptr, nullptr);
+  set.write(starts.data(), text_type(), H5::DataSpace::ALL, H5::DataSpace::ALL, transfer);
 }
 
 std::string Hdf5Image::bytes() {

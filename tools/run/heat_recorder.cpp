@@ -61,7 +61,11 @@ void HeatRecorder<dim>::write(const thermal::HeatState& state) {
   if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
   write_frame(temperature, state);
-  thermal::write(state, pile_.key, restart_);
+  if (state.time > 0) {
+    thermal::write(state, pile_.key, restart_);
+  } else {  // a run that starts has nothing to go on from, least of all an earlier run's state
+    std::filesystem::remove(restart_);
+  }
 }
 
 template <int dim>

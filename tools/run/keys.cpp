@@ -14,10 +14,12 @@ namespace scree::run {
 namespace {
 
 // The effective scene is written with every default filled in and in a fixed order, so its text tells what a section means.
-void add_section(Hasher& hash, const Scene& scene, const char* section) {
+void add_sections(Hasher& hash, const Scene& scene, std::initializer_list<const char*> sections) {
   const YAML::Node root = YAML::Load(scene.effective);
-  hash.add(section);
-  if (root[section]) hash.add(YAML::Dump(root[section]));
+  for (const char* section : sections) {
+    hash.add(section);
+    if (root[section]) hash.add(YAML::Dump(root[section]));
+  }
 }
 
 void add(Hasher& hash, const std::optional<double>& value) {
@@ -72,7 +74,7 @@ void add_fall(Hasher& hash, const Scene& scene) {
     add(hash, material.density);
     hash.add(material.friction).add(material.restitution);
   }
-  add_section(hash, scene, "settle");
+  add_sections(hash, scene, {"settle"});
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ std::string packing_key(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
 std::string fall_key(const Scene& scene) {
   Hasher hash;
   hash.add("fall").add(version());
-  add_section(hash, scene, "bodies");
+  add_sections(hash, scene, {"bodies"});
   add_mesh_files(hash, scene);
   add_fall(hash, scene);
   return hash.hex();
@@ -117,7 +119,7 @@ std::string heat_key(const Scene& scene, const packing::Packing<dim>& packing, c
     hash.add_bytes(pose.translation.data(), sizeof(double) * 3);
     hash.add_bytes(pose.rotation.coeffs().data(), sizeof(double) * 4);
   }
-  for (const char* section : {"materials", "contact", "heat", "output"}) add_section(hash, scene, section);
+  add_sections(hash, scene, {"materials", "contact", "heat", "output"});
   add_tables(hash, scene);
   if (start != nullptr) hash.add_bytes(start->data(), sizeof(double) * static_cast<std::size_t>(start->size()));
   return hash.hex();

@@ -146,7 +146,7 @@ def between(rows, error):
 
 def ratios(rows, size, finer):
     """The fastest peer's seconds over Scree's, at the error of every peer that no other peer beats in both; for each size and, where larger is
-    `finer` and not more work, over all.
+    `finer` and not more work, over all: Scree may then take any size for any.
 
     Both sides count with their cheapest row whose error is no larger, so that only what was run counts; `interpolated` asks what Scree would
     take for the peer's error. Scree is the program "Scree"; its variants are neither side. Where it does not get to an error the ratio is
@@ -155,7 +155,7 @@ def ratios(rows, size, finer):
     result = []
     for only in [*sorted({row[size] for row in rows}), *(["any"] if finer else [])]:
         here = [row for row in rows if only in (row[size], "any")]
-        ours = [row for row in here if row["program"] == "Scree"]
+        ours = [row for row in (rows if finer else here) if row["program"] == "Scree"]
         peers = [row for row in here if not row["program"].startswith("Scree")]
         front = [row for row in peers if ours and cheapest(peers, row["error"], "processor") is row]
         for peer in sorted(front, key=lambda row: -row["error"]):
@@ -192,7 +192,7 @@ def finish(name, rows, size, arguments, title, error, finer=False):
 
 
 def plot(rows, path, title, axes):
-    """Error against processor seconds, log-log: a curve per program and size. `axes`: what a row calls its size and its error, and the
+    """Error against processor seconds, log-log: a curve per program and size, of which the colour says the program and the points the size. `axes`: what a row calls its size and its error, and the
     error's name."""
     size, error, label = axes
     if not shutil.which("gnuplot"):
@@ -209,7 +209,8 @@ def plot(rows, path, title, axes):
     for n, ((program, number), points) in enumerate(curves.items()):
         script.append(f"$curve{n} << END\n" + "\n".join(f"{x:.6g} {y:.6g}" for x, y in sorted(points)) + "\nEND")
         colour = COLOURS[programs.index(program) % len(COLOURS)]
-        parts.append(f"$curve{n} with linespoints linecolor '{colour}' pointtype {4 + sizes.index(number)} linewidth 1.5 "
-                     f"title '{program}, {number:,} {size}'")
+        parts.append(f"$curve{n} with linespoints linecolor '{colour}' pointtype {4 + sizes.index(number)} linewidth 1.5 notitle")
+    parts += [f"NaN with lines linecolor '{COLOURS[n % len(COLOURS)]}' linewidth 3 title '{program}'" for n, program in enumerate(programs)]
+    parts += [f"NaN with points linecolor 'black' pointtype {4 + n} title '{number:,} {size}'" for n, number in enumerate(sizes)]
     script.append("plot " + ", ".join(parts))
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
