@@ -11,8 +11,8 @@ pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(udunits REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
-# Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(hdf5 REQUIRED hdf5-serial)
+# Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
              FiltersSources IOCore IOGeometry IOImage IOXML ImagingCore RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
@@ -35,8 +35,7 @@ scree_library(cholmod_api cholmod cholmod.h suitesparse)
 scree_library(umfpack_api umfpack umfpack.h suitesparse)
 
 # HDF5 is linked into programs: its shared library loads thirty others (curl, Kerberos, GnuTLS) to read files over networks, which
-# takes as long as a small run. Modules take the shared one, for which Debian's static one is not
-# built.
+# takes as long as a small run. Modules take the shared one, as Debian's static one is not built for them.
 find_path(hdf5_cpp_INCLUDE H5Cpp.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_package(ZLIB REQUIRED)
 add_library(hdf5_cpp INTERFACE IMPORTED GLOBAL)

@@ -25,15 +25,10 @@ Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   ledger.by_boundary.assign(model_.holds.size(), 0.0);
   ledger.by_applied.assign(model_.loads.size(), 0.0);
   ledger.by_surroundings.assign(model_.exchanges.size(), 0.0);
-  const auto jump = [&](NodeId node) {
+  for (const NodeId node : model_.blocks.ids()) {  // in fourth order the jump reaches nodes beside the fixed ones
     const double stored = balance_.stored_at(node, model_.initial, temperature);
     ledger.start_jump += stored;
     ledger.turnover += std::abs(stored);
-  };
-  if (shares_) {  // the jump reaches nodes beside the fixed ones
-    for (const NodeId node : model_.blocks.ids()) jump(node);
-  } else {
-    for (const NodeId node : model_.fixed_nodes) jump(node);
   }
   ledger.stored = balance_.stored_in_all(model_.initial, temperature);
   return ledger;

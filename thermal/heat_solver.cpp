@@ -33,8 +33,6 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   cost_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
 }
 
-HeatSolver::~HeatSolver() = default;
-
 void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const SolverUse& use) {
   const std::int64_t entries = model.conductance.nonZeros();
   if (asked == LinearSolver::multigrid) {

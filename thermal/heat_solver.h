@@ -21,7 +21,6 @@ class HeatSolver {
  public:
   // Refers to both. Throws InputError if multigrid is asked for and cannot do it.
   HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use);
-  ~HeatSolver();
 
   // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if that cannot be done.
   void prepare(const Linearised& at, double scale);

@@ -15,13 +15,13 @@ namespace {
 // Where this very code was loaded from: the program, or the Python module.
 std::filesystem::path own_folder() {
   Dl_info info{};
-  if (dladdr(reinterpret_cast<void*>(&late_symbol), &info) == 0 || info.dli_fname == nullptr) return {};
-  const std::filesystem::path file = info.dli_fname;
-  // A program is known by what it was called as.
+  if (dladdr(reinterpret_cast<void*>(&late_symbol), &info) != 0) {
+    const std::filesystem::path file = info.dli_fname;
+    if (file.extension() == ".so") return file.parent_path();
+  }
+  // A program is known there only by what it was called as.
   std::error_code ignored;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  return file.has_parent_path() && std::filesystem::exists(file) && file.extension() == ".so" ? file.parent_path()
-                                                                                              : program.parent_path();
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
 void* open(const std::filesystem::path& library) {

@@ -117,10 +117,13 @@ template <int dim>
 Stencil reading_of(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Nearest<dim>& nearest,
                    Reading reading) {
   const auto& nodes = mesh.elements[nearest.element];
-  if (reading == Reading::linear) return {{nodes.begin(), nodes.end()}, {nearest.weights.begin(), nearest.weights.end()}};
-  Aabb<dim> box;
-  for (const NodeId node : nodes) box.extend(mesh.nodes[node]);
-  return cubic_stencil<dim>(mesh, block, point, box.sizes());
+  if (reading == Reading::cubic) {
+    Aabb<dim> box;
+    for (const NodeId node : nodes) box.extend(mesh.nodes[node]);
+    Stencil stencil = cubic_stencil<dim>(mesh, block, point, box.sizes());
+    if (!stencil.nodes.empty()) return stencil;
+  }
+  return {{nodes.begin(), nodes.end()}, {nearest.weights.begin(), nearest.weights.end()}};
 }
 
 }  // namespace
