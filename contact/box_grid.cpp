@@ -147,6 +147,13 @@ void BoxGrid<dim>::find(std::uint32_t place, std::vector<std::uint32_t>& found) 
 }
 
 template <int dim>
+void BoxGrid<dim>::find(const Aabb<dim>& box, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  const Packed packed = pack(box);
+  for (const Level& level : levels_) look_into(level, packed, level.first + level.count, found);
+}
+
+template <int dim>
 void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_t before,
                              std::vector<std::uint32_t>& found) const {
   Cell low, count;

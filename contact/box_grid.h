@@ -28,6 +28,9 @@ class BoxGrid {
   // are a ten-millionth of the scene's size apart are found, too.
   void find(std::uint32_t place, std::vector<std::uint32_t>& found) const;
 
+  // All that meet any box, likewise.
+  void find(const Aabb<dim>& box, std::vector<std::uint32_t>& found) const;
+
  private:
   // In single precision, rounded outwards: boxes meet if no low corner is above the other's high one. Lanes beyond the last
   // axis are 0.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "contact/near_faces.h"
 #include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
 #include "contact/semi_spring.h"
@@ -75,8 +76,6 @@ bool uses(const ContactOptions& options, Model model) {
 template <int dim>
 void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options, ContactSet<dim>& set) {
   const Targets<dim> targets = find_targets(surface, options);
-  set.semi_springs = targets.of_springs.size();
-  set.semi_edges = targets.of_edges.size();
   const auto body_of = [&](FaceId face) { return surface.mesh.blocks[surface.faces[face].block].body; };
   const auto counts = [&](FaceId owner, FaceId target) {
     return options.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
@@ -119,8 +118,13 @@ template <int dim>
 ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options) {
   SCREE_EXPECT(options.indentation > 0 && options.indentation < 1);
   SCREE_EXPECT(options.tolerance >= 0);
-  const Surface<dim> surface = make_surface(mesh);
   ContactSet<dim> set;
+  auto faces = mesh::boundary_faces(mesh);
+  if (uses(options, Model::semi_spring)) {
+    set.semi_springs = faces.size() * dim;
+    set.semi_edges = dim == 3 ? faces.size() * 3 : 0;
+  }
+  const Surface<dim> surface = make_surface(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
   if (uses(options, Model::semi_spring)) add_semi_springs(surface, options, set);
   if (uses(options, Model::overlap)) {
     auto overlaps = overlap_contacts(surface, options);

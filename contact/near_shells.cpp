@@ -10,8 +10,7 @@ Aabb<dim> box_of(const Surface<dim>& surface, FaceId first, FaceId end, const Sh
   for (std::size_t f = first.index(); f < end.index(); ++f) {
     for (const NodeId node : surface.faces[FaceId{f}].nodes) box.extend(surface.mesh.nodes[node]);
   }
-  // A semi-edge is a third of a height from its edge, at most, times the indentation.
-  const double margin = 0.34 * options.indentation * box.diagonal().norm() + options.tolerance * surface.lengths[first];
+  const double margin = widest_shift * options.indentation * box.diagonal().norm() + options.tolerance * surface.lengths[first];
   box.min().array() -= margin;
   box.max().array() += margin;
   return box;

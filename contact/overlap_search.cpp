@@ -5,6 +5,7 @@
 #include <bit>
 #include <numeric>
 
+#include "contact/near_faces.h"
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
@@ -166,7 +167,7 @@ std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const Co
 template <int dim>
 std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance) {
   if (mesh.blocks.size() < 2) return {};
-  const Surface<dim> surface = make_surface(mesh);
+  const Surface<dim> surface = make_surface(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<Share>(
       surface, tolerance, [](BodyId, BodyId) { return true; },

@@ -100,6 +100,10 @@ struct ShellOptions {
   double indentation = 0;
 };
 
+// A semi-edge is a third of its face's height from its edge, times the indentation, and no height is larger than the diagonal
+// of the face's box.
+inline constexpr double widest_shift = 0.34;
+
 // The first face of every shell, in order, and the number of faces behind them.
 template <int dim>
 std::vector<FaceId> shell_starts(const Surface<dim>& surface);

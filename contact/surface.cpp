@@ -56,15 +56,6 @@ void pair_uses(const std::vector<EdgeUse>& uses, std::vector<SurfaceEdge>& edges
   }
 }
 
-// Of each block its first face, and the number of faces behind them. Faces come in the order of their blocks.
-template <int dim>
-std::vector<std::size_t> block_starts(const Surface<dim>& surface) {
-  std::vector<std::size_t> starts(surface.mesh.blocks.size() + 1, 0);
-  for (const auto& face : surface.faces) ++starts[face.block.index() + 1];
-  for (std::size_t block = 1; block < starts.size(); ++block) starts[block] += starts[block - 1];
-  return starts;
-}
-
 // Edges of the blocks of a chunk, numbered from 0. Block by block, since no node is shared between blocks: many small
 // sorts are faster than a big one.
 std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk blocks, Surface<3>& surface) {
@@ -120,17 +111,17 @@ void add_node_normals(FaceId f, Surface<dim>& surface) {
 }  // namespace
 
 template <int dim>
-Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
-  Surface<dim> surface{mesh, mesh::boundary_faces(mesh), {}, {}, {}, {}, {}, {}};
+Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
+  Surface<dim> surface{mesh, std::move(faces), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
   surface.normals = Table<FaceId, Point<dim>>(count);
   surface.areas = Table<FaceId, double>(count);
   surface.lengths = Table<FaceId, double>(count);
   surface.node_normals = Table<NodeId, Point<dim>>(mesh.nodes.size(), Point<dim>::Zero());
-  const std::vector<std::size_t> starts = block_starts(surface);
+  const std::vector<std::size_t> starts = block_starts(mesh, surface.faces);
   const std::vector<Chunk> blocks = chunks_by_size(starts, chunk_size);
-  for_chunks(count, [&](Chunk faces) {
-    for (std::size_t f = faces.begin; f < faces.end; ++f) measure_face<dim>(FaceId{f}, surface);
+  for_chunks(count, [&](Chunk chunk) {
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, surface);
   });
   // Faces of two blocks have no node in common.
   for_chunks(blocks, [&](Chunk chunk) {
@@ -138,6 +129,14 @@ Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
   });
   if constexpr (dim == 3) add_edges(starts, blocks, surface);
   return surface;
+}
+
+template <int dim>
+std::vector<std::size_t> block_starts(const mesh::BlockMesh<dim>& mesh, const Table<FaceId, mesh::Face<dim>>& faces) {
+  std::vector<std::size_t> starts(mesh.blocks.size() + 1, 0);
+  for (const auto& face : faces) ++starts[face.block.index() + 1];
+  for (std::size_t block = 1; block < starts.size(); ++block) starts[block] += starts[block - 1];
+  return starts;
 }
 
 template <int dim>
@@ -169,9 +168,10 @@ bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& po
   return elements.size() > 1 && std::any_of(elements.begin(), elements.end(), inside);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                       \
-  template Surface<dim> make_surface<dim>(const mesh::BlockMesh<dim>&);                              \
-  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, const std::array<double, dim>&); \
+#define SCREE_INSTANTIATE(dim)                                                                                             \
+  template Surface<dim> make_surface<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                    \
+  template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
+  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, const std::array<double, dim>&);                       \
   template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -30,8 +30,19 @@ struct Surface {
   Table<FaceId, std::array<EdgeId, 3>> face_edges;
 };
 
+// Of some of the boundary faces, in the order of their blocks and elements.
 template <int dim>
-Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh);
+Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces);
+
+// Of them all.
+template <int dim>
+Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
+  return make_surface(mesh, mesh::boundary_faces(mesh));
+}
+
+// Of each block its first face, and the number of faces behind them. Faces come in the order of their blocks.
+template <int dim>
+std::vector<std::size_t> block_starts(const mesh::BlockMesh<dim>& mesh, const Table<FaceId, mesh::Face<dim>>& faces);
 
 template <int dim>
 Corners<dim> corners_of(const Surface<dim>& surface, FaceId face) {

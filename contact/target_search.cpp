@@ -1,5 +1,4 @@
 #include "contact/target_search.h"
-#include <cstdio>
 
 #include "contact/edge_search.h"
 #include "contact/near_shells.h"

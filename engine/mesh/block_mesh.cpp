@@ -19,11 +19,27 @@ std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element
   return nodes;
 }
 
+std::array<std::uint32_t, 2> ascending(const std::array<std::uint32_t, 2>& of) {
+  return {std::min(of[0], of[1]), std::max(of[0], of[1])};
+}
+
+std::array<std::uint32_t, 3> ascending(const std::array<std::uint32_t, 3>& of) {
+  const std::uint32_t low = std::min({of[0], of[1], of[2]}), high = std::max({of[0], of[1], of[2]});
+  return {low, of[0] ^ of[1] ^ of[2] ^ low ^ high, high};
+}
+
 }  // namespace
 
 template <int dim>
 void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId id, Table<FaceId, Face<dim>>& faces) {
   const Block& block = mesh.blocks[id];
+  const auto add = [&](ElementId element, int corner) {
+    faces.push_back({opposite_face<dim>(mesh.elements[element], corner), element, id});
+  };
+  if (block.elements.size() == 1) {
+    for (int corner = 0; corner <= dim; ++corner) add(block.elements[0], corner);
+    return;
+  }
   const auto for_each_face = [&](const auto& visit) {
     for (const ElementId element : block.elements) {
       for (int corner = 0; corner <= dim; ++corner) {
@@ -31,14 +47,12 @@ void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId id, Table<FaceId, Fa
         std::array<std::uint32_t, dim> face;
         std::transform(nodes.begin(), nodes.end(), face.begin(),
                        [&](NodeId node) { return static_cast<std::uint32_t>(node.index() - block.nodes.first()); });
-        std::sort(face.begin(), face.end());
-        visit(face);
+        visit(ascending(face));
       }
     }
   };
   for (const std::uint32_t place : lone_faces<dim>(block.nodes.size(), for_each_face)) {
-    const ElementId element = block.elements[place / (dim + 1)];
-    faces.push_back({opposite_face<dim>(mesh.elements[element], static_cast<int>(place % (dim + 1))), element, id});
+    add(block.elements[place / (dim + 1)], static_cast<int>(place % (dim + 1)));
   }
 }
 
