@@ -1,6 +1,7 @@
 // Where blocks touch. Geometry only: a contact knows no temperature.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -22,24 +23,55 @@ struct Stencil {
 };
 
 template <int dim>
+Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Stencil<dim>& stencil) {
+  Point<dim> sum = stencil.weights[0] * mesh.nodes[stencil.nodes[0]];
+  for (int i = 1; i < dim; ++i) sum += stencil.weights[i] * mesh.nodes[stencil.nodes[i]];
+  return sum;
+}
+
+// There are many: in 3-D one fills two lines of a cache. What follows from the rest is told by the functions below.
+template <int dim>
 struct Contact {
   Kind kind = Kind::point_face;
-  BlockId owner;           // of the semi-spring or semi-edge; of an overlap, the block of the lower face
-  BlockId target;          // always another block than the owner
-  Stencil<dim> on_owner;   // the contact point on the owner, by position
-  Stencil<dim> on_target;  // the closest point on the target
-  // Where the paper puts the owner's share of the flow: a semi-spring's vertex (12), a semi-edge's two vertices (13). An
-  // overlap has no vertex, and this is on_owner.
-  Stencil<dim> literal_owner;
+  BlockId owner;            // of the semi-spring or semi-edge; of an overlap, the block of the lower face
+  BlockId target;           // always another block than the owner
   ElementId owner_element;  // gives the characteristic length of eq. (11)
   ElementId target_element;
-  double area = 0;  // (9), (10), or the point's share of the overlap [m2] (2-D: times unit thickness)
+  Stencil<dim> on_owner;   // the contact point on the owner, by position
+  Stencil<dim> on_target;  // the closest point on the target
+  double area = 0;         // (9), (10), or the point's share of the overlap [m2] (2-D: times unit thickness)
   // Characteristic length of the owner's element. Of an overlap, which stands for the semi-springs of both sides:
   // 1/(1/dL1 + 1/dL2) [m].
   double length = 0;
-  double gap = 0;    // signed distance from the target, negative inside it [m]
-  Point<dim> point;  // where it is [m]
+  double gap = 0;  // signed distance from the target, negative inside it [m]
 };
+static_assert(sizeof(Contact<3>) == 128);
+
+// Where it is: on the owner, or halfway through an overlap [m].
+template <int dim>
+Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Contact<dim>& contact) {
+  const Point<dim> on_owner = point_of(mesh, contact.on_owner);
+  if (contact.kind != Kind::overlap) return on_owner;
+  return 0.5 * (on_owner + point_of(mesh, contact.on_target));
+}
+
+// Where the paper puts the owner's share of the flow: a semi-spring's vertex (12), a semi-edge's two vertices (13). An overlap
+// has no vertex, and this is on_owner. A semi-spring or semi-edge is moved inwards by as much as the least of its weights, that
+// of a corner which has no part in its vertices, tells.
+template <int dim>
+Stencil<dim> literal_owner(const Contact<dim>& contact) {
+  Stencil<dim> owner = contact.on_owner;
+  auto& weights = owner.weights;
+  if (contact.kind == Kind::point_face) {
+    const auto vertex = std::max_element(weights.begin(), weights.end()) - weights.begin();
+    weights.fill(0);
+    weights[static_cast<std::size_t>(vertex)] = 1;
+  } else if (contact.kind == Kind::edge_edge) {
+    const double inwards = *std::min_element(weights.begin(), weights.end());
+    for (double& weight : weights) weight = (weight - inwards) / (1 - dim * inwards);
+  }
+  return owner;
+}
 
 // Ordered by owner, owner's face, corner, and target, so that equal packings give equal sets; overlaps come after the others.
 template <int dim>

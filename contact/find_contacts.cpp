@@ -28,8 +28,6 @@ Contact<dim> owned_by(const Surface<dim>& surface, FaceId owner, FaceId target, 
   contact.target_element = surface.faces[target].element;
   contact.length = surface.lengths[owner];
   contact.on_owner = {face.nodes, weights};
-  contact.literal_owner.nodes = face.nodes;
-  contact.point = weighted_point<dim>(corners_of(surface, owner), weights);
   return contact;
 }
 
@@ -39,7 +37,6 @@ Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& op
   const auto touch = touch_face(surface, options, owner, corner, target);
   Contact<dim> contact = owned_by<dim>(surface, owner, target, semi_spring_weights<dim>(corner, options.indentation));
   contact.kind = Kind::point_face;
-  contact.literal_owner.weights[corner] = 1;
   contact.on_target = {surface.faces[target].nodes, touch.value().on_target};
   contact.area = semi_spring_area(surface, owner);
   contact.gap = touch->gap;
@@ -52,8 +49,6 @@ Contact<3> edge_contact(const Surface<3>& surface, const ContactOptions& options
   const auto weights = semi_edge_weights(side, touch.value().along, options.indentation);
   Contact<3> contact = owned_by<3>(surface, owner, edge.faces[0], weights);
   contact.kind = Kind::edge_edge;
-  contact.literal_owner.weights[side] = 1 - touch->along;
-  contact.literal_owner.weights[(side + 1) % 3] = touch->along;
   contact.on_target.nodes = surface.faces[edge.faces[0]].nodes;
   for (int i = 0; i < 3; ++i) {
     if (contact.on_target.nodes[i] == edge.nodes[0]) contact.on_target.weights[i] = 1 - touch->on_target;

@@ -118,14 +118,11 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   contact.target = surface.faces[second].block;
   contact.on_owner = {surface.faces[first].nodes, at.on_first};
   contact.on_target = {surface.faces[second].nodes, at.on_second};
-  contact.literal_owner = contact.on_owner;
   contact.owner_element = surface.faces[first].element;
   contact.target_element = surface.faces[second].element;
   contact.area = at.area;
   contact.length = 1 / (1 / surface.lengths[first] + 1 / surface.lengths[second]);
   contact.gap = at.gap;
-  contact.point = 0.5 * (weighted_point<dim>(corners_of(surface, first), at.on_first) +
-                         weighted_point<dim>(corners_of(surface, second), at.on_second));
   return contact;
 }
 

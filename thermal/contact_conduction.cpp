@@ -6,7 +6,7 @@ namespace scree::thermal {
 
 template <int dim>
 TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form) {
-  const contact::Stencil<dim>& owner = form == JointForm::consistent ? contact.on_owner : contact.literal_owner;
+  const contact::Stencil<dim> owner = form == JointForm::consistent ? contact.on_owner : contact::literal_owner(contact);
   TemperatureDifference<dim> difference;
   for (int i = 0; i < dim; ++i) {
     difference.nodes[i] = owner.nodes[i];

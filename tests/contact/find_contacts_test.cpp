@@ -37,13 +37,14 @@ TEST(FindContacts, OfTwoCubesFaceToFaceCarryTheWholeFaceFromBothSides) {
 
 TEST(FindContacts, OfCubesThatAreOffsetLoseTheSemiSpringsBeyondTheRim) {
   // By half the face: each triangle keeps the corners that are over the other cube.
-  const auto set = find_contacts<3>(two_cubes(0, 0.5), {});
+  const auto mesh = two_cubes(0, 0.5);
+  const auto set = find_contacts<3>(mesh, {});
   EXPECT_GT(set.count(Kind::point_face), 0);
   EXPECT_LT(set.count(Kind::point_face), 12);
   EXPECT_EQ(set.count(Kind::edge_edge), 0) << "semi-springs have found this contact, semi-edges would count it again";
   for (const auto& contact : set.contacts) {
-    EXPECT_GE(contact.point.y(), 0.5);
-    EXPECT_LE(contact.point.y(), 1.0);
+    EXPECT_GE(point_of(mesh, contact).y(), 0.5);
+    EXPECT_LE(point_of(mesh, contact).y(), 1.0);
   }
 }
 
@@ -92,8 +93,9 @@ TEST(FindContacts, OfAVertexOnAFaceAreTheThreeSemiSpringsAroundIt) {
     // 5 % of two thirds of the face's height, which leans by the tetrahedron's own.
     EXPECT_NEAR(contact.gap, 0.05 * 2.0 / 3 * std::sqrt(2.0 / 3), 1e-14);
     EXPECT_NEAR(contact.area, std::sqrt(3.0) / 12, 1e-14);
-    EXPECT_EQ(std::count(contact.literal_owner.weights.begin(), contact.literal_owner.weights.end(), 1.0), 1);
-    EXPECT_NEAR(value(mesh, contact.literal_owner).norm(), 0, 1e-14) << "the corner it stands on";
+    const auto literal = literal_owner(contact);
+    EXPECT_EQ(std::count(literal.weights.begin(), literal.weights.end(), 1.0), 1);
+    EXPECT_NEAR(value(mesh, literal).norm(), 0, 1e-14) << "the corner it stands on";
     EXPECT_NEAR(value(mesh, contact.on_target).z(), 0, 1e-14);
   }
   EXPECT_TRUE(find_contacts<3>(mesh_of<3>({floor, {on_its_corner(0.011)}}), {}).contacts.empty());
@@ -106,6 +108,10 @@ mesh::BlockMesh<3> crossed_edges(double gap) {
   return mesh_of<3>({{below}, {above}});
 }
 
+Point<3> centre_of(const mesh::BlockMesh<3>& mesh, const Stencil<3>& stencil) {
+  return value(mesh, Stencil<3>{stencil.nodes, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+}
+
 TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {
   const auto mesh = crossed_edges(0.002);
   const auto set = find_contacts<3>(mesh, {});
@@ -113,12 +119,17 @@ TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {
   for (const auto& contact : set.contacts) {
     EXPECT_EQ(contact.kind, Kind::edge_edge);
     EXPECT_NE(contact.owner, contact.target);
-    EXPECT_NEAR((value(mesh, contact.on_owner) - contact.point).norm(), 0, 1e-14);
-    EXPECT_NEAR(std::abs((contact.point - value(mesh, contact.on_target)).z()), contact.gap, 1e-14);
+    EXPECT_NEAR((value(mesh, contact.on_owner) - point_of(mesh, contact)).norm(), 0, 1e-14);
+    EXPECT_NEAR(std::abs((point_of(mesh, contact) - value(mesh, contact.on_target)).z()), contact.gap, 1e-14);
     EXPECT_EQ(std::count(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1);
     EXPECT_NEAR(std::accumulate(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1, 1e-15);
-    EXPECT_EQ(std::count(contact.literal_owner.weights.begin(), contact.literal_owner.weights.end(), 0.0), 1);
-    EXPECT_NEAR(value(mesh, contact.literal_owner).head<2>().norm(), 0.1, 0.01) << "beside the crossing, on the edge itself";
+    const auto literal = literal_owner(contact);
+    EXPECT_EQ(std::count(literal.weights.begin(), literal.weights.end(), 0.0), 1);
+    EXPECT_NEAR(std::accumulate(literal.weights.begin(), literal.weights.end(), 0.0), 1, 1e-15);
+    // The semi-edge is moved inwards by 5 % of the way to its face's centre, which is across the edge.
+    EXPECT_NEAR((0.95 * value(mesh, literal) + 0.05 * centre_of(mesh, literal) - value(mesh, contact.on_owner)).norm(), 0,
+                1e-14);
+    EXPECT_NEAR(value(mesh, literal).head<2>().norm(), 0.1, 0.01) << "beside the crossing, on the edge itself";
   }
   EXPECT_TRUE(find_contacts<3>(crossed_edges(0.011), {}).contacts.empty());
 }
@@ -129,7 +140,7 @@ TEST(FindContacts, OfABeamAcrossABeamAreSemiEdges) {
   const auto set = find_contacts<3>(mesh, {});
   EXPECT_EQ(set.count(Kind::point_face), 0);
   EXPECT_GT(set.count(Kind::edge_edge), 0);
-  for (const auto& contact : set.contacts) EXPECT_NEAR(contact.point.z(), 0, 1e-14);
+  for (const auto& contact : set.contacts) EXPECT_NEAR(point_of(mesh, contact).z(), 0, 1e-14);
 }
 
 TEST(FindContacts, NeverJoinABlockToItself) {

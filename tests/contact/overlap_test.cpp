@@ -165,7 +165,8 @@ TEST(Overlap, IsSearchedOnlyForThePairsOfBodiesThatAskForIt) {
 template <int dim>
 void same_when_renumbered_and_moved() {
   auto lower = layer<dim>(3, -1.0 / 3), upper = layer<dim>(4, 0);
-  const auto before = find_contacts<dim>(mesh_of<dim>({lower, upper}), by_overlap);
+  const auto before_mesh = mesh_of<dim>({lower, upper});
+  const auto before = find_contacts<dim>(before_mesh, by_overlap);
   Eigen::Matrix<double, dim, dim> rotation;
   if constexpr (dim == 2) {
     rotation = Eigen::Rotation2Dd(0.7).toRotationMatrix();
@@ -187,10 +188,13 @@ void same_when_renumbered_and_moved() {
   // The second moments of the points are those of the moved ones, however the polygons are divided.
   Eigen::Matrix<double, dim, dim> sum = Eigen::Matrix<double, dim, dim>::Zero(), moved_sum = sum;
   for (const auto& contact : before.contacts) {
-    const Point<dim> point = rotation * contact.point + Point<dim>::Constant(-12.3);
+    const Point<dim> point = rotation * point_of(before_mesh, contact) + Point<dim>::Constant(-12.3);
     sum += contact.area * point * point.transpose();
   }
-  for (const auto& contact : after.contacts) moved_sum += contact.area * contact.point * contact.point.transpose();
+  for (const auto& contact : after.contacts) {
+    const Point<dim> point = point_of(after_mesh, contact);
+    moved_sum += contact.area * point * point.transpose();
+  }
   EXPECT_NEAR((sum - moved_sum).norm(), 0, 1e-9);
 }
 

@@ -145,15 +145,11 @@ contact::Contact<dim> semi_spring(const mesh::BlockMesh<dim>& mesh, const mesh::
   contact.area = area_of(mesh, own) / dim;
   contact.length = mesh::element_mean_edge(mesh, own.element);
   contact.on_owner.nodes = own.nodes;
-  contact.literal_owner.nodes = own.nodes;
   contact.on_target.nodes = other.nodes;
-  contact.point.setZero();
   for (int j = 0; j < dim; ++j) {
     const Point<dim>& corner = mesh.nodes[own.nodes[j]];
     const double weight = indentation / dim + (i == j ? 1 - indentation : 0);
     contact.on_owner.weights[j] = weight;
-    contact.literal_owner.weights[j] = i == j ? 1 : 0;
-    contact.point += weight * corner;
     for (int m = 0; m < dim; ++m) {
       if ((corner - mesh.nodes[other.nodes[m]]).norm() < 1e-9) contact.on_target.weights[m] = weight;
     }

@@ -28,7 +28,7 @@ void sweep(const std::string& file) {
     const auto scene = scree::read_scene(file, {"heat.until=1 h", fmt::format("contact.stiffness_factor={}", beta)});
     scree::Heating<3> heating(scene, packing);
     heating.advance_to(3600);
-    const auto& point = busiest(heating).point;
+    const auto point = scree::contact::point_of(heating.pile().mesh, busiest(heating));
     fmt::print("beta {:4}: {:5.1f} degC inside after 1 h, {:.0f} kJ stored, most heat at [{:.3f} {:.3f} {:.3f}]\n", beta,
                heating.probe("inside") - 273.15, heating.state().ledger.stored / 1e3, point.x(), point.y(), point.z());
   }

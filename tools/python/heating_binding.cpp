@@ -86,12 +86,24 @@ py::dict follow(AnyHeating& self) {
 
 // One member of every contact, from the heating's own memory.
 template <class Number>
-py::array contact_member(const py::object& self, auto member_of, std::size_t width_of_points = 0) {
+py::array contact_member(const py::object& self, auto member_of) {
   return self.cast<const AnyHeating&>().use([&](const auto& heating) {
     const auto& contacts = heating.pile().contacts.contacts;
     using Contact = std::decay_t<decltype(contacts.front())>;
-    constexpr std::size_t dim = std::tuple_size_v<decltype(Contact{}.on_owner.nodes)>;
-    return member_view<Number>(contacts, member_of(Contact{}), width_of_points == 0 ? 1 : dim, self);
+    return member_view<Number>(contacts, member_of(Contact{}), 1, self);
+  });
+}
+
+py::array contact_points(const py::object& self) {
+  return self.cast<const AnyHeating&>().use([&](const auto& heating) {
+    const auto& pile = heating.pile();
+    std::vector<double> coordinates;
+    for (const auto& contact : pile.contacts.contacts) {
+      const auto point = contact::point_of(pile.mesh, contact);
+      coordinates.insert(coordinates.end(), point.begin(), point.end());
+    }
+    const std::size_t count = pile.contacts.contacts.size();
+    return own(std::move(coordinates)).reshape({static_cast<py::ssize_t>(count), py::ssize_t{pile.mesh.corners - 1}});
   });
 }
 
@@ -103,8 +115,7 @@ py::dict contacts(const py::object& self) {
   table["kind"] = contact_member<std::uint8_t>(self, []<class C>(const C&) { return &C::kind; });
   table["area"] = contact_member<double>(self, []<class C>(const C&) { return &C::area; });
   table["gap"] = contact_member<double>(self, []<class C>(const C&) { return &C::gap; });
-  table["point"] = contact_member<double>(
-      self, []<class C>(const C&) { return &C::point; }, 1);
+  table["point"] = contact_points(self);
   return table;
 }
 
@@ -123,7 +134,7 @@ void bind_heating(py::module_& module) {
       .def_property_readonly("probes", &probes, "Temperature at every probe now [K].")
       .def_property_readonly("contacts", &contacts,
                              "Every contact as arrays that look into the heating's memory: owner and target (blocks), kind (0 "
-                             "point-face, 1 edge-edge, 2 overlap), area [m2], gap [m], point [m].")
+                             "point-face, 1 edge-edge, 2 overlap), area [m2], gap [m]; and a new array, point [m].")
       .def_property_readonly(
           "contact_flows",
           [](const AnyHeating& self) { return own(self.use([](const auto& heating) { return heating.contact_flows(); })); },

@@ -70,11 +70,11 @@ std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std
 }
 
 template <int dim>
-output::Grid contact_grid(const contact::ContactSet<dim>& contacts) {
+output::Grid contact_grid(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts) {
   output::Grid grid;
   for (const auto& contact : contacts.contacts) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    point.head<dim>() = contact.point;
+    point.head<dim>() = contact::point_of(mesh, contact);
     grid.points.push_back(point);
   }
   grid.types.assign(grid.points.size(), output::CellType::vertex);
@@ -98,7 +98,7 @@ std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contac
   template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                       \
   template output::Frame heat_frame<dim>(double, const Eigen::VectorXd&, const std::vector<Point<dim>>&);      \
   template std::vector<double> largest_in_cells<dim>(const mesh::BlockMesh<dim>&, const std::vector<double>&); \
-  template output::Grid contact_grid<dim>(const contact::ContactSet<dim>&);                                    \
+  template output::Grid contact_grid<dim>(const mesh::BlockMesh<dim>&, const contact::ContactSet<dim>&);       \
   template std::vector<output::Array> contact_arrays<dim>(const contact::ContactSet<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -26,7 +26,7 @@ std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std
 
 // One vertex per contact, where it is.
 template <int dim>
-output::Grid contact_grid(const contact::ContactSet<dim>& contacts);
+output::Grid contact_grid(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts);
 
 // `area` [m2], `gap` [m], `kind` (0 point-face, 1 edge-edge, 2 overlap), `owner` and `target` (blocks).
 template <int dim>

@@ -31,7 +31,7 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
   series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh));
   if (!pile.contacts.contacts.empty()) {
     contact_series_.emplace(files.directory, "contacts", resumed_from);
-    contact_series_->share(contact_grid(pile.contacts), contact_arrays(pile.contacts));
+    contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts));
   }
   if (pile.probes.empty()) return;
   if (resumed_from) {
