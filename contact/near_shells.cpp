@@ -28,10 +28,12 @@ ShellTable<dim> make_shells(const Surface<dim>& surface, const ShellOptions& opt
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) boxes[i] = box_of(surface, firsts[i], firsts[i + 1], options);
   });
   ShellTable<dim> table{std::vector<Shell<dim>>(count), BoxGrid<dim>(boxes)};
+  // In the order of the mesh: writing here and there waits for nothing, reading does.
+  std::vector<std::uint32_t> places(count);
+  for (std::uint32_t place = 0; place < count; ++place) places[table.grid.order()[place]] = place;
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const std::size_t from = table.grid.order()[i];
-      table.shells[i] = make_shell(surface, firsts[from], firsts[from + 1], options);
+      table.shells[places[i]] = make_shell(surface, firsts[i], firsts[i + 1], options);
     }
   });
   return table;
