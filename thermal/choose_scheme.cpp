@@ -12,7 +12,7 @@ namespace scree::thermal {
 namespace {
 
 // Measured on one core (README, "Which steps"): only their ratios matter.
-constexpr double seconds_per_entry = 1.6e-9;  // of K, in a product with two columns
+constexpr double seconds_per_entry = 1e-9;  // of K, in a product with two columns
 
 // The least that implicit steps will cost.
 double least_implicit(const HeatModel& model, LinearSolver solver) {

@@ -31,14 +31,17 @@ Eigen::VectorXd extended(const SparseMatrix& matrix, const Eigen::VectorXd& temp
 
 }  // namespace
 
-FlowNetwork::FlowNetwork(const SparseMatrix* conductance, Sums sums) : conductance_(conductance), sums_(sums) {
+FlowNetwork::FlowNetwork(const SparseMatrix* conductance, Sums sums) : conductance_(conductance), sums_(sums) {}
+
+const RowRuns& FlowNetwork::rows() const {
   // A matrix without entries has rows all the same: of lumped blocks that nothing joins.
-  if (sums == Sums::plain && conductance != nullptr) rows_ = RowRuns(*conductance);
+  if (!rows_) rows_.emplace(*conductance_);
+  return *rows_;
 }
 
 Eigen::VectorXd FlowNetwork::leaving(const Eigen::VectorXd& temperature) const {
   if (empty()) return Eigen::VectorXd::Zero(temperature.size());
-  return sums_ == Sums::plain ? plainly(rows_, temperature) : extended(*conductance_, temperature);
+  return sums_ == Sums::plain ? plainly(rows(), temperature) : extended(*conductance_, temperature);
 }
 
 double FlowNetwork::leaving(NodeId node, const Eigen::VectorXd& temperature) const {

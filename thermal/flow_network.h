@@ -10,6 +10,8 @@
 // `plain` will do where steps are short enough to be explicit.
 #pragma once
 
+#include <optional>
+
 #include "thermal/heat_model.h"
 #include "thermal/row_runs.h"
 
@@ -29,18 +31,20 @@ class FlowNetwork {
   [[nodiscard]] double leaving(NodeId node, const Eigen::VectorXd& temperature) const;
 
   // Calls use(row, flow) for every row on all threads: flow[c] is the heat that leaves the row's node, summed plainly, at
-  // `columns` columns of temperatures that lie side by side [W].
+  // `columns` columns of temperatures that lie side by side [W]. Itself not to be called on several threads.
   template <int columns, class Use>
   void for_each_flow(const double* temperature, const Use& use) const {
-    rows_.for_each_flow<columns>(temperature, use);
+    rows().for_each_flow<columns>(temperature, use);
   }
 
   [[nodiscard]] bool empty() const { return conductance_ == nullptr || conductance_->nonZeros() == 0; }
 
  private:
+  const RowRuns& rows() const;
+
   const SparseMatrix* conductance_;
   Sums sums_;
-  RowRuns rows_;  // for plain sums
+  mutable std::optional<RowRuns> rows_;  // made when all rows are first asked for, which some never do
 };
 
 }  // namespace scree::thermal

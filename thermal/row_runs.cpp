@@ -1,21 +1,12 @@
 #include "thermal/row_runs.h"
 
 #include <algorithm>
-#include <span>
+
+#include "thermal/wide.h"
 
 namespace scree::thermal {
 
 namespace {
-
-// Wider instructions where the processor has them. Without fused operations they round like the plain ones. (With AVX-512 it
-// takes twice as long: most of its loads cross a cache line.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define SCREE_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SCREE_WIDE
-#endif
-
-#define SCREE_INLINE inline __attribute__((always_inline))
 
 // The flows of `width` numbers side by side, of which `at` is the first.
 template <int columns, int width>
@@ -72,19 +63,46 @@ bool repeats(const Eigen::SparseMatrix<double>& matrix, Eigen::Index row) {
 
 RowRuns::RowRuns(const Eigen::SparseMatrix<double>& matrix) : column_(matrix.innerIndexPtr()), value_(matrix.valuePtr()) {
   const int* outer = matrix.outerIndexPtr();
-  int rows = 0;  // of the part that grows
-  for (int row = 0; row < static_cast<int>(matrix.rows()); ++row) {
-    const bool goes_on = row > 0 && repeats(matrix, row) && runs_.back().rows < rows_in_run;
-    if (goes_on) {
-      ++runs_.back().rows;
-    } else {
-      if (rows >= rows_in_part) rows = 0;
-      if (rows == 0) parts_.push_back({runs_.size(), runs_.size()});
-      runs_.push_back({row, 1, outer[row], outer[row + 1] - outer[row]});
-      ++parts_.back().end;
+  const int end = static_cast<int>(matrix.rows());
+  for (int row = 0; row < end;) {
+    if (bundles_.add(matrix, row)) {
+      const Bundle& bundle = bundles_[bundles_.count() - 1];
+      append(row, rows_in_bundle, true, 2 * static_cast<std::int64_t>(bundle.columns));
+      row += rows_in_bundle;
+      continue;
     }
-    ++rows;
+    RowRun run{row, 1, outer[row], outer[row + 1] - outer[row]};
+    while (run.rows < rows_in_run && row + run.rows < end && repeats(matrix, row + run.rows)) ++run.rows;
+    runs_.push_back(run);
+    // Rows that repeat take a quarter of the time.
+    append(row, run.rows, false, run.entries * static_cast<std::int64_t>(run.rows + 3) / 4);
+    row += run.rows;
   }
+}
+
+// The next rows, in the bundle or run that was added last.
+void RowRuns::append(int row, int rows, bool bundled, std::int64_t work) {
+  const std::size_t here = (bundled ? bundles_.count() : runs_.size()) - 1;
+  const bool full = parts_.empty() || parts_.back().bundled != bundled || parts_.back().rows >= rows_in_part ||
+                    parts_.back().work >= work_in_part;
+  if (full) parts_.push_back({row, 0, bundled, here, here, 0});
+  Part& part = parts_.back();
+  part.rows += rows;
+  part.end = here + 1;
+  part.work += work;
+}
+
+std::span<const RowRuns::Part> RowRuns::parts_of_task(int task, int threads) const {
+  constexpr int pieces = 4 * (tasks_a_thread - 1);  // of a share: as many small tasks are a quarter of it
+  constexpr int large = 3 * pieces / 4;
+  const int share = task % threads;
+  const int round = task / threads;
+  const auto place = [&](int piece) {
+    return parts_.size() * static_cast<std::size_t>(share * pieces + piece) / static_cast<std::size_t>(threads * pieces);
+  };
+  const std::size_t begin = place(round == 0 ? 0 : large + round - 1);
+  const std::size_t end = place(large + round);
+  return std::span(parts_).subspan(begin, end - begin);
 }
 
 template <>

@@ -1,18 +1,23 @@
 // Rows of K that repeat. In a grid of equal cells most rows are the one before, moved along by one node: the same values at
 // columns that are each one further. Such rows are multiplied together, several nodes to an instruction, and their values are
-// read once: in a grid a product then costs a fifth of what reading K for each row does. Elsewhere a run is one row long.
+// read once: in a grid a product then costs a fifth of what reading K for each row does. Elsewhere a run is one row long, but
+// the rows of small blocks are bundled (row_bundles.h).
 //
 // The flows of a row are summed in the order of its columns whatever the run, so how rows are grouped, and how wide the
 // processor's instructions are, does not change a bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "engine/base/phases.h"
 #include "engine/base/threads.h"
+#include "thermal/row_bundles.h"
 
 namespace scree::thermal {
 
@@ -35,14 +40,27 @@ class RowRuns {
   void for_each_flow(const double* x, const Use& use) const;
 
   [[nodiscard]] std::size_t count() const { return runs_.size(); }
+  [[nodiscard]] std::size_t bundles() const { return bundles_.count(); }
 
  private:
-  // Runs whose rows are worked off together.
+  // Consecutive rows that are worked off together, each part about as long as another.
   struct Part {
-    std::size_t begin, end;  // runs
+    int first, rows;
+    bool bundled;            // in bundles, else in runs
+    std::size_t begin, end;  // of those
+    std::int64_t work;       // entries that are read
   };
   static constexpr int rows_in_part = 512;
   static constexpr int rows_in_run = 128;
+  static constexpr std::int64_t work_in_part = 8192;
+  static constexpr int tasks_a_thread = 5;
+
+  [[nodiscard]] long rows() const { return parts_.empty() ? 0 : parts_.back().first + parts_.back().rows; }
+  void append(int row, int rows, bool bundled, std::int64_t work);
+
+  // Each thread has a share of the rows. The first tasks are three quarters of every share, for a thread that takes the same
+  // one in every product finds it in its cache; the others are small and even out who is done first.
+  [[nodiscard]] std::span<const Part> parts_of_task(int task, int threads) const;
 
   // The flows of a part's rows, one after another.
   template <int columns>
@@ -51,6 +69,7 @@ class RowRuns {
   const int* column_ = nullptr;
   const double* value_ = nullptr;
   std::vector<RowRun> runs_;
+  RowBundles bundles_;
   std::vector<Part> parts_;
 };
 
@@ -61,16 +80,19 @@ void RowRuns::flows<2>(const Part& part, const double* x, double* flow) const;
 
 template <int columns, class Use>
 void RowRuns::for_each_flow(const double* x, const Use& use) const {
-  const auto count = static_cast<std::int64_t>(parts_.size());
-#pragma omp parallel for schedule(static) if (count * rows_in_part >= rows_worth_sharing)
-  for (std::int64_t p = 0; p < count; ++p) {
+  const auto work_off = [&](const Part& part) {
     double flow[columns * (rows_in_part + rows_in_run)];
-    const Part& part = parts_[static_cast<std::size_t>(p)];
-    flows<columns>(part, x, flow);
-    const int first = runs_[part.begin].first;
-    const int last = runs_[part.end - 1].first + runs_[part.end - 1].rows;
-    for (int row = first; row < last; ++row) use(row, flow + columns * (row - first));
-  }
+    if (part.bundled) {
+      bundles_.flows<columns>(part.begin, part.end, x, flow);
+    } else {
+      flows<columns>(part, x, flow);
+    }
+    for (int i = 0; i < part.rows; ++i) use(part.first + i, flow + columns * i);
+  };
+  const int threads = rows() < rows_worth_sharing ? 1 : threads_in_use();
+  run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
+    for (const Part& part : parts_of_task(task, threads)) work_off(part);
+  });
 }
 
 }  // namespace scree::thermal

@@ -38,9 +38,10 @@ class Crew {
  private:
   static constexpr unsigned phase_shift = 24;
   static constexpr std::uint64_t number_mask = (1U << phase_shift) - 1;
-  // Looks at a phase that has nothing left to hand out before the processor is offered to others, and before a helper sleeps.
+  // Looks at a phase that has nothing left to hand out before the processor is offered to others, and before a helper sleeps:
+  // some tenths of a millisecond, as waking it up takes longer than what the caller does between two works of a loop.
   static constexpr int patience = 2000;
-  static constexpr int much_patience = 2200;
+  static constexpr int much_patience = patience + 600;
 
   void help(int number) {
     for (int idle = 0;;) {

@@ -77,6 +77,18 @@ TEST(RowRuns, ALineOfAGridIsThreeRuns) {
   EXPECT_EQ(RowRuns(model.conductance).count(), 3U * 7 * 5);
 }
 
+TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitInLooseTetrahedra) {
+  test::Slab<3> slab;
+  slab.cells = {5, 5, 5};
+  slab.block_per_element = true;
+  const mesh::BlockMesh<3> mesh = test::slab_mesh<3>({slab});
+  const HeatModel model =
+      make_heat_model<3>(mesh, test::rock_only(), test::matching_contacts(mesh), test::options_for(mesh, 300));
+  EXPECT_EQ(RowRuns(model.conductance).bundles(), mesh.blocks.size());
+  expect_same_flows<1>(model.conductance);
+  expect_same_flows<2>(model.conductance);
+}
+
 TEST(RepeatedCells, CellsOfAGridHaveWhatEachHasByItself) {
   const mesh::BlockMesh<3> mesh = grid(0.05);
   const RepeatedCells<3> repeated(mesh, unit_conductivity(mesh));
