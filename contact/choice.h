@@ -20,17 +20,25 @@ struct Candidate {
 };
 
 // The one with the least distance; among those that are as close to `equal` [m], the one with the lowest score, then the lowest
-// id. An invalid id if there is none.
-template <class Target>
-Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
+// id. Null if there is none.
+template <class Candidates>
+auto best_of(Candidates& candidates, double equal) -> decltype(candidates.data()) {
+  if (candidates.size() == 1) return candidates.data();
   double least = std::numeric_limits<double>::infinity();
   for (const auto& candidate : candidates) least = std::min(least, candidate.distance);
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.target < b.target; });
-  const Candidate<Target>* best = nullptr;
-  for (const auto& candidate : candidates) {
+  decltype(candidates.data()) best = nullptr;
+  for (auto& candidate : candidates) {
     if (candidate.distance > least + equal) continue;
     if (best == nullptr || candidate.score < best->score - equal_score) best = &candidate;
   }
+  return best;
+}
+
+// An invalid id if there is none.
+template <class Target>
+Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
+  const Candidate<Target>* best = best_of(candidates, equal);
   return best == nullptr ? Target{} : best->target;
 }
 

@@ -32,14 +32,14 @@ Contact<dim> owned_by(const Surface<dim>& surface, FaceId owner, FaceId target, 
 }
 
 template <int dim>
-Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
-                           FaceId target) {
-  const auto touch = touch_face(surface, options, owner, corner, target);
-  Contact<dim> contact = owned_by<dim>(surface, owner, target, semi_spring_weights<dim>(corner, options.indentation));
+Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& options, const SpringTouch<dim>& touch) {
+  const FaceId owner{touch.spring / dim};
+  const auto corner = static_cast<int>(touch.spring % dim);
+  Contact<dim> contact = owned_by<dim>(surface, owner, touch.target, semi_spring_weights<dim>(corner, options.indentation));
   contact.kind = Kind::point_face;
-  contact.on_target = {surface.faces[target].nodes, touch.value().on_target};
+  contact.on_target = {surface.faces[touch.target].nodes, touch.on_target};
   contact.area = semi_spring_area(surface, owner);
-  contact.gap = touch->gap;
+  contact.gap = touch.gap;
   return contact;
 }
 
@@ -66,46 +66,77 @@ bool uses(const ContactOptions& options, Model model) {
                      [&](const Table<BodyId, Model>& row) { return std::find(row.begin(), row.end(), model) != row.end(); });
 }
 
+// The contacts of semi-springs and semi-edges, each put where it belongs: the number of contacts of the faces before tells
+// where.
+//
 // A semi-spring takes its target among all blocks, and counts only if the two bodies are modelled by semi-springs: what lies on
 // a block of another model does not reach past it.
 template <int dim>
-void add_semi_springs(const Surface<dim>& surface, const ContactOptions& options, ContactSet<dim>& set) {
-  const Targets<dim> targets = find_targets(surface, options);
-  const auto body_of = [&](FaceId face) { return surface.mesh.blocks[surface.faces[face].block].body; };
-  const auto counts = [&](FaceId owner, FaceId target) {
-    return options.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
-  };
-  const auto visit = [&](FaceId face, const auto& on_spring, const auto& on_edge) {
-    for (int corner = 0; corner < dim; ++corner) {
-      const FaceId target = targets.of_springs[face.index() * dim + corner];
-      if (target.valid() && counts(face, target)) on_spring(corner, target);
+class SemiSprings {
+ public:
+  SemiSprings(const Surface<dim>& surface, const ContactOptions& options)
+      : surface_(surface), options_(options), targets_(find_targets(surface, options)), starts_(surface.faces.size() + 1, 0) {
+    for_chunks(surface.faces.size(), [&](Chunk chunk) {
+      for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+        starts_[f + 1] = springs_before(FaceId{f}, dim);
+        for_each_edge(FaceId{f}, [&](int, EdgeId) { ++starts_[f + 1]; });
+      }
+    });
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  }
+
+  [[nodiscard]] std::size_t count() const { return starts_.back(); }
+
+  void put_into(std::vector<Contact<dim>>& contacts) const {
+    std::vector<const SpringTouch<dim>*> touches(targets_.of_springs.size(), nullptr);
+    for (const auto& part : targets_.touches) {
+      for (const SpringTouch<dim>& touch : part) touches[touch.spring] = &touch;
     }
+    for_chunks(surface_.faces.size(), [&](Chunk chunk) {
+      Contact<dim>* next = contacts.data() + starts_[chunk.begin];
+      for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+        for (std::size_t spring = f * dim; spring < (f + 1) * dim; ++spring) {
+          const SpringTouch<dim>* touch = touches[spring];
+          if (touch != nullptr && counts(FaceId{f}, touch->target)) *next++ = point_contact(surface_, options_, *touch);
+        }
+        if constexpr (dim == 3) {
+          for_each_edge(FaceId{f},
+                        [&](int side, EdgeId target) { *next++ = edge_contact(surface_, options_, FaceId{f}, side, target); });
+        }
+      }
+    });
+  }
+
+ private:
+  [[nodiscard]] BodyId body_of(FaceId face) const { return surface_.mesh.blocks[surface_.faces[face].block].body; }
+
+  [[nodiscard]] bool counts(FaceId owner, FaceId target) const {
+    return options_.pairs.empty() || options_.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
+  }
+
+  // How many of a face's first corners have a semi-spring that counts.
+  [[nodiscard]] std::size_t springs_before(FaceId face, int corners) const {
+    std::size_t count = 0;
+    for (int corner = 0; corner < corners; ++corner) {
+      const FaceId target = targets_.of_springs[face.index() * dim + corner];
+      count += target.valid() && counts(face, target) ? 1 : 0;
+    }
+    return count;
+  }
+
+  template <class Visit>
+  void for_each_edge(FaceId face, const Visit& visit) const {
     for (int side = 0; side < 3 && dim == 3; ++side) {
-      const EdgeId target = targets.of_edges[face.index() * 3 + side];
-      if (target.valid() && counts(face, surface.edges[target].faces[0])) on_edge(side, target);
+      const EdgeId target = targets_.of_edges[face.index() * 3 + side];
+      if (target.valid() && counts(face, surface_.edges[target].faces[0])) visit(side, target);
     }
-  };
-  // How many contacts come before each chunk, then the contacts.
-  const std::size_t faces = surface.faces.size();
-  std::vector<std::size_t> before(chunk_count(faces) + 1, 0);
-  for_chunks(faces, [&](Chunk chunk) {
-    const auto count = [&](int, auto) { ++before[chunk.number + 1]; };
-    for (std::size_t f = chunk.begin; f < chunk.end; ++f) visit(FaceId{f}, count, count);
-  });
-  std::partial_sum(before.begin(), before.end(), before.begin());
-  set.contacts.resize(before.back());
-  for_chunks(faces, [&](Chunk chunk) {
-    Contact<dim>* next = set.contacts.data() + before[chunk.number];
-    for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-      const FaceId face{f};
-      visit(
-          face, [&](int corner, FaceId target) { *next++ = point_contact(surface, options, face, corner, target); },
-          [&](int side, EdgeId target) {
-            if constexpr (dim == 3) *next++ = edge_contact(surface, options, face, side, target);
-          });
-    }
-  });
-}
+  }
+
+  const Surface<dim>& surface_;
+  const ContactOptions& options_;
+  Targets<dim> targets_;
+  std::vector<std::size_t> starts_;  // of the contacts of each face, and the end
+};
 
 }  // namespace
 
@@ -120,7 +151,11 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
     set.semi_edges = dim == 3 ? faces.size() * 3 : 0;
   }
   const Surface<dim> surface = make_surface(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
-  if (uses(options, Model::semi_spring)) add_semi_springs(surface, options, set);
+  if (uses(options, Model::semi_spring)) {
+    SemiSprings<dim> semi_springs(surface, options);
+    set.contacts.resize(semi_springs.count());
+    semi_springs.put_into(set.contacts);
+  }
   if (uses(options, Model::overlap)) {
     auto overlaps = overlap_contacts(surface, options);
     if (set.contacts.empty()) {

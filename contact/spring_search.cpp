@@ -70,9 +70,9 @@ class ShellSprings {
     }
   }
 
-  // The target of the semi-spring of face f at vertex v. No semi-spring is nearer to a face than its bound: once one is
-  // touched, those that cannot beat it need no look.
-  FaceId target_of(const Shell<dim>& owner, int f, int v) {
+  // Adds what the semi-spring of face f at vertex v, with this number, takes as its target. No semi-spring is nearer to a face
+  // than its bound: once one is touched, those that cannot beat it need no look.
+  void take_target(const Shell<dim>& owner, int f, int v, std::size_t spring, std::vector<SpringTouch<dim>>& touches) {
     auto& [possible, touched] = springs_[f * (dim + 1) + v];
     while (!possible.empty()) {
       const auto nearest = std::min_element(possible.begin(), possible.end(),
@@ -82,7 +82,9 @@ class ShellSprings {
       *nearest = possible.back();
       possible.pop_back();
     }
-    return choose(touched, equal_distance * surface_.lengths[owner.face(f)]);
+    const Touched* best = best_of(touched, equal_distance * surface_.lengths[owner.face(f)]);
+    if (best == nullptr) return;
+    touches.push_back({static_cast<std::uint32_t>(spring), best->target, best->touch.gap, best->touch.on_target});
   }
 
  private:
@@ -90,9 +92,12 @@ class ShellSprings {
     float bound;  // the semi-spring is no nearer [m]
     FaceId target;
   };
+  struct Touched : Candidate<FaceId> {
+    PointTouch<dim> touch;
+  };
   struct Spring {
     std::vector<Possible> possible;
-    std::vector<Candidate<FaceId>> touched;
+    std::vector<Touched> touched;
 
     void clear() {
       possible.clear();
@@ -136,7 +141,7 @@ class ShellSprings {
     const auto touch = touch_face(surface_, options_, own, corner, target);
     if (!touch) return;
     const double distance = std::abs(touch->gap);
-    springs_[f * (dim + 1) + v].touched.push_back({target, distance, -touch->facing});
+    springs_[f * (dim + 1) + v].touched.push_back({{target, distance, -touch->facing}, *touch});
     constexpr double rounding = 1 + 1e-6;
     const double limit = rounding * (distance + 2 * equal_distance * surface_.lengths[own]);
     limits_[f][v] = std::min(limits_[f][v], static_cast<float>(limit));
@@ -191,9 +196,9 @@ void SpringSearch<dim>::link() {
 }
 
 template <int dim>
-std::vector<FaceId> SpringSearch<dim>::targets() {
+std::vector<std::vector<SpringTouch<dim>>> SpringSearch<dim>::touches() {
   link();
-  std::vector<FaceId> targets(surface_.faces.size() * dim);
+  std::vector<std::vector<SpringTouch<dim>>> touches(chunk_count(table_.shells.size()));
   for_chunks(table_.shells.size(), [&](Chunk chunk) {
     ShellSprings<dim> springs(surface_, options_);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
@@ -206,12 +211,12 @@ std::vector<FaceId> SpringSearch<dim>::targets() {
       }
       for (int f = 0; f <= dim; ++f) {
         if ((owner.faces >> f & 1u) == 0) continue;
-        FaceId* target = &targets[owner.face(f).index() * dim];
-        for (const int v : mesh::opposite_corners<dim>[f]) *target++ = springs.target_of(owner, f, v);
+        std::size_t spring = owner.face(f).index() * dim;
+        for (const int v : mesh::opposite_corners<dim>[f]) springs.take_target(owner, f, v, spring++, touches[chunk.number]);
       }
     }
   });
-  return targets;
+  return touches;
 }
 
 template class SpringSearch<2>;

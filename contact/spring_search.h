@@ -1,6 +1,7 @@
 // Which target face each semi-spring takes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,15 @@
 #include "contact/near_shells.h"
 
 namespace scree::contact {
+
+// A semi-spring that touches, the target it takes, and how.
+template <int dim>
+struct SpringTouch {
+  std::uint32_t spring;  // of corner c of face f: f * dim + c
+  FaceId target;
+  double gap;                         // [m]
+  std::array<double, dim> on_target;  // weights
+};
 
 // Is shown all pairs of shells that are near, then asked.
 template <int dim>
@@ -18,8 +28,8 @@ class SpringSearch {
   // From any thread, one at a time for each chunk.
   void look_at(std::size_t chunk, const ShellPair<dim>& pair);
 
-  // Of corner c of face f at f * dim + c; invalid if it touches nothing. See target_search.h.
-  [[nodiscard]] std::vector<FaceId> targets();
+  // See target_search.h. Chunk by chunk of the shells.
+  [[nodiscard]] std::vector<std::vector<SpringTouch<dim>>> touches();
 
  private:
   void link();

@@ -6,6 +6,19 @@
 
 namespace scree::contact {
 
+namespace {
+
+template <int dim>
+void take(std::vector<std::vector<SpringTouch<dim>>>&& touches, std::size_t faces, Targets<dim>& targets) {
+  targets.of_springs.resize(faces * dim);
+  for (const auto& part : touches) {
+    for (const auto& touch : part) targets.of_springs[touch.spring] = touch.target;
+  }
+  targets.touches = std::move(touches);
+}
+
+}  // namespace
+
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
   const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
@@ -13,14 +26,14 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
   Targets<dim> targets;
   if constexpr (dim == 2) {
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) { springs.look_at(chunk, pair); });
-    targets.of_springs = springs.targets();
+    take(springs.touches(), surface.faces.size(), targets);
   } else {
     EdgeSearch edges(surface, options, table);
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
       springs.look_at(chunk, pair);
       edges.look_at(chunk, pair);
     });
-    targets.of_springs = springs.targets();
+    take(springs.touches(), surface.faces.size(), targets);
     targets.of_edges = edges.targets(targets.of_springs);
   }
   return targets;
