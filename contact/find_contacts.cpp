@@ -150,9 +150,10 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
     set.semi_springs = faces.size() * dim;
     set.semi_edges = dim == 3 ? faces.size() * 3 : 0;
   }
-  const Surface<dim> surface = make_surface(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
+  Surface<dim> surface = surface_of(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
   if (uses(options, Model::semi_spring)) {
-    SemiSprings<dim> semi_springs(surface, options);
+    add_rims(surface);
+    const SemiSprings<dim> semi_springs(surface, options);
     set.contacts.resize(semi_springs.count());
     semi_springs.put_into(set.contacts);
   }

@@ -64,6 +64,9 @@ Polygon<dim> whole_first(const FacePair<dim>& pair) {
 // Keeps what lies where the linear function `value` is not negative.
 template <int dim>
 void clip(Polygon<dim>& polygon, const Place<dim>& value) {
+  bool whole = true;
+  for (std::size_t i = 0; i < polygon.size(); ++i) whole = whole && value.dot(polygon[i]) >= 0;
+  if (whole) return;
   Polygon<dim> kept;
   const std::size_t sides = dim == 2 ? polygon.size() - 1 : polygon.size();
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -96,16 +96,27 @@ OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wan
   return ordered(std::move(found), surface.faces.size());
 }
 
-// One after another.
-template <class Item>
-std::vector<Item> joined(std::vector<std::vector<Item>>&& parts) {
-  std::vector<std::size_t> before(parts.size() + 1, 0);
-  for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
-  std::vector<Item> items(before.back());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::copy(parts[i].begin(), parts[i].end(), items.begin() + static_cast<std::ptrdiff_t>(before[i]));
-    parts[i] = {};
+// What work(chunk, into) appends for every chunk of [0, count), in order. On all threads, some chunks at a time: what they give
+// is copied while it is in the cache, and its memory is used again.
+template <class Item, class Work>
+std::vector<Item> collected(std::size_t count, const Work& work) {
+  constexpr std::size_t group = 16 * chunk_size;
+  std::vector<Item> items;
+  std::vector<std::vector<Item>> parts(chunk_count(group));
+  for (std::size_t from = 0; from < count; from += group) {
+    const std::size_t faces = std::min(group, count - from);
+    for_chunks(faces, [&](Chunk chunk) {
+      parts[chunk.number].clear();
+      work(Chunk{chunk.number, from + chunk.begin, from + chunk.end}, parts[chunk.number]);
+    });
+    std::size_t more = 0;
+    for (std::size_t i = 0; i < chunk_count(faces); ++i) more += parts[i].size();
+    // As many as there will be if it goes on like this.
+    const double share = static_cast<double>(from + faces) / static_cast<double>(count);
+    if (items.size() + more > items.capacity()) {
+      items.reserve(static_cast<std::size_t>(1.05 * static_cast<double>(items.size() + more) / share) + 1);
+    }
+    for (std::size_t i = 0; i < chunk_count(faces); ++i) items.insert(items.end(), parts[i].begin(), parts[i].end());
   }
   return items;
 }
@@ -131,8 +142,7 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
 template <class Item, int dim, class Wanted, class Make>
 std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
   const OrderedPairs pairs = near_pairs(surface, tolerance, wanted);
-  std::vector<std::vector<Item>> parts(chunk_count(surface.faces.size()));
-  for_chunks(surface.faces.size(), [&](Chunk chunk) {
+  return collected<Item>(surface.faces.size(), [&](Chunk chunk, std::vector<Item>& items) {
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
       const FaceId first{f};
@@ -142,11 +152,10 @@ std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, con
                                              surface.normals[second]);
         if (!pair) continue;
         overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
-        if (!points.empty()) make(first, second, points, parts[chunk.number]);
+        if (!points.empty()) make(first, second, points, items);
       }
     }
   });
-  return joined(std::move(parts));
 }
 
 }  // namespace
@@ -164,7 +173,7 @@ std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const Co
 template <int dim>
 std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance) {
   if (mesh.blocks.size() < 2) return {};
-  const Surface<dim> surface = make_surface(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {tolerance, 0}));
+  const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<Share>(
       surface, tolerance, [](BodyId, BodyId) { return true; },

@@ -110,7 +110,9 @@ Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, con
     next = FaceId{next.index() + 1};
   }
   place_vertices(surface, vertices, shell);
-  if constexpr (dim == 3) add_edges(surface, shell);
+  if constexpr (dim == 3) {
+    if (!surface.face_edges.empty()) add_edges(surface, shell);
+  }
   return shell;
 }
 

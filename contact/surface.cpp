@@ -111,24 +111,28 @@ void add_node_normals(FaceId f, Surface<dim>& surface) {
 }  // namespace
 
 template <int dim>
-Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
+Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
   Surface<dim> surface{mesh, std::move(faces), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
   surface.normals = Table<FaceId, Point<dim>>(count);
   surface.areas = Table<FaceId, double>(count);
   surface.lengths = Table<FaceId, double>(count);
-  surface.node_normals = Table<NodeId, Point<dim>>(mesh.nodes.size(), Point<dim>::Zero());
-  const std::vector<std::size_t> starts = block_starts(mesh, surface.faces);
-  const std::vector<Chunk> blocks = chunks_by_size(starts, chunk_size);
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, surface);
   });
+  return surface;
+}
+
+template <int dim>
+void add_rims(Surface<dim>& surface) {
+  const std::vector<std::size_t> starts = block_starts(surface.mesh, surface.faces);
+  const std::vector<Chunk> blocks = chunks_by_size(starts, chunk_size);
+  surface.node_normals = Table<NodeId, Point<dim>>(surface.mesh.nodes.size(), Point<dim>::Zero());
   // Faces of two blocks have no node in common.
   for_chunks(blocks, [&](Chunk chunk) {
     for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) add_node_normals<dim>(FaceId{f}, surface);
   });
   if constexpr (dim == 3) add_edges(starts, blocks, surface);
-  return surface;
 }
 
 template <int dim>
@@ -169,7 +173,8 @@ bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& po
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                             \
-  template Surface<dim> make_surface<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                    \
+  template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                      \
+  template void add_rims<dim>(Surface<dim>&);                                                                              \
   template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
   template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, const std::array<double, dim>&);                       \
   template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);

@@ -21,23 +21,29 @@ template <int dim>
 struct Surface {
   const mesh::BlockMesh<dim>& mesh;  // of the caller, who keeps it
   Table<FaceId, mesh::Face<dim>> faces;
-  Table<FaceId, Point<dim>> normals;       // unit, outwards
-  Table<FaceId, double> areas;             // [m2] (2-D: length times unit thickness)
-  Table<FaceId, double> lengths;           // characteristic length of the face's element, eq. (11) [m]
+  Table<FaceId, Point<dim>> normals;  // unit, outwards
+  Table<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)
+  Table<FaceId, double> lengths;      // characteristic length of the face's element, eq. (11) [m]
+  // The rims, if they have been added: what is asked where a point is closest to a node or an edge.
   Table<NodeId, Point<dim>> node_normals;  // mean of the faces around, weighted by their angle there; any length
   // 3-D only. Edge i of a face joins its corners i and i + 1.
   Table<EdgeId, SurfaceEdge> edges;
   Table<FaceId, std::array<EdgeId, 3>> face_edges;
 };
 
-// Of some of the boundary faces, in the order of their blocks and elements.
+// Of some of the boundary faces, in the order of their blocks and elements, without the rims.
 template <int dim>
-Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces);
+Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces);
 
-// Of them all.
+template <int dim>
+void add_rims(Surface<dim>& surface);
+
+// Of them all, with the rims.
 template <int dim>
 Surface<dim> make_surface(const mesh::BlockMesh<dim>& mesh) {
-  return make_surface(mesh, mesh::boundary_faces(mesh));
+  Surface<dim> surface = surface_of(mesh, mesh::boundary_faces(mesh));
+  add_rims(surface);
+  return surface;
 }
 
 // Of each block its first face, and the number of faces behind them. Faces come in the order of their blocks.
