@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 
@@ -43,6 +44,37 @@ double seen_area(const Corners<dim>& corners, const Point<dim>& normal) {
   } else {
     return 0.5 * normal.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
   }
+}
+
+// How the weight of a corner grows with the place, as seen along the normal, times twice the face's area as seen so.
+template <int dim>
+Point<dim> weight_slope(const Corners<dim>& corners, int corner, const Point<dim>& normal) {
+  if constexpr (dim == 2) {
+    const double sign = corner == 0 ? -1 : 1;
+    return {sign * normal.y(), -sign * normal.x()};
+  } else {
+    return normal.cross(corners[(corner + 2) % 3] - corners[(corner + 1) % 3]);
+  }
+}
+
+// Does a face lie beyond a side of another one, seen along the normal, but for less than what counts? Faces that share a side
+// or a corner do, and most pairs are such.
+template <int dim>
+bool lies_beyond_a_side(const Corners<dim>& face, const Corners<dim>& of, const Point<dim>& normal) {
+  constexpr double thin = 0.1 * least_share;  // twice this share of either face may be in common
+  for (int j = 0; j < dim; ++j) {
+    const Point<dim> slope = weight_slope<dim>(of, j, normal);
+    const Point<dim>& side = of[(j + 1) % dim];
+    const double whole = slope.dot(of[j] - side);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point<dim>& corner : face) {
+      const double weight = slope.dot(corner - side) / whole;
+      low = std::min(low, weight);
+      high = std::max(high, weight);
+    }
+    if (high <= thin * std::min(1.0, high - low)) return true;
+  }
+  return false;
 }
 
 // The first face, each corner with its weights on the second, as seen along the normal.
@@ -147,6 +179,8 @@ OverlapPoint<dim> as_point(const Place<dim>& place, double area, double gap) {
 template <int dim>
 void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<OverlapPoint<dim>>& points) {
   points.clear();
+  if (lies_beyond_a_side<dim>(pair.first, pair.second, pair.normal)) return;
+  if (lies_beyond_a_side<dim>(pair.second, pair.first, pair.normal)) return;
   const Place<dim> gap = gap_function(pair);
   const auto parts = simplices<dim>(overlap(pair, gap, tolerance));
   const double first_area = std::abs(seen_area<dim>(pair.first, pair.normal));
