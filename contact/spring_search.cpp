@@ -26,6 +26,19 @@ int vertices_within(const Shell<dim>& owner, const Heights<dim>& above_other, fl
   return count;
 }
 
+// No semi-spring of any face of the owner is nearer to the other shell than this, by the heights of the vertices alone.
+template <int dim>
+float least_distance(const Heights<dim>& above_other, float indentation) {
+  Lanes low = above_other[0], high = low, sum = low;
+  for (int v = 1; v <= dim; ++v) {
+    low = least(low, above_other[v]);
+    high = most(high, above_other[v]);
+    sum += above_other[v];
+  }
+  const Lanes beyond = (1 - indentation) * low + indentation / dim * (sum - high);
+  return std::max(std::max(beyond[0], beyond[1]), std::max(beyond[2], beyond[3]));
+}
+
 // The semi-springs of one shell after the other.
 template <int dim>
 class ShellSprings {
@@ -68,6 +81,16 @@ class ShellSprings {
         look_at_spring(view, f, v, vertex_beyond[v], spring_beyond[f][v]);
       }
     }
+  }
+
+  // What is further from the owner is no semi-spring's target, as far as is known now.
+  [[nodiscard]] float limit(const Shell<dim>& owner) const {
+    float largest = 0;
+    for (int f = 0; f <= dim; ++f) {
+      if ((owner.faces >> f & 1u) == 0) continue;
+      for (const int v : mesh::opposite_corners<dim>[f]) largest = std::max(largest, limits_[f][v]);
+    }
+    return largest;
   }
 
   // Adds what the semi-spring of face f at vertex v, with this number, takes as its target. No semi-spring is nearer to a face
@@ -162,16 +185,18 @@ SpringSearch<dim>::SpringSearch(const Surface<dim>& surface, const ContactOption
 
 template <int dim>
 void SpringSearch<dim>::look_at(std::size_t chunk, const ShellPair<dim>& pair) {
-  const auto indentation = static_cast<float>(options_.indentation);
-  const float rounding = pair.way.rounding;
-  const std::uint32_t one = pair.first_place, other = pair.second_place;
-  add(chunk, one, other, vertices_within<dim>(pair.first, pair.above_second, rounding, indentation));
-  add(chunk, other, one, vertices_within<dim>(pair.second, pair.above_first, rounding, indentation));
+  add(chunk, pair.first_place, pair.second_place, pair.above_second, pair.way.rounding);
+  add(chunk, pair.second_place, pair.first_place, pair.above_first, pair.way.rounding);
 }
 
 template <int dim>
-void SpringSearch<dim>::add(std::size_t chunk, std::uint32_t own, std::uint32_t other, int vertices) {
-  if (vertices > 0) near_[chunk].push_back({own, {other & 0x7fffffffu, vertices >= dim ? 1u : 0u}});
+void SpringSearch<dim>::add(std::size_t chunk, std::uint32_t own, std::uint32_t other, const Heights<dim>& above_other,
+                            float rounding) {
+  const auto indentation = static_cast<float>(options_.indentation);
+  const int vertices = vertices_within<dim>(table_.shells[own], above_other, rounding, indentation);
+  if (vertices == 0) return;
+  const float bound = least_distance<dim>(above_other, indentation) - rounding;
+  near_[chunk].push_back({own, {other & 0x7fffffffu, vertices >= dim ? 1u : 0u, bound}});
 }
 
 // Sorts the others by shell.
@@ -205,8 +230,10 @@ std::vector<std::vector<SpringTouch<dim>>> SpringSearch<dim>::touches() {
       const Shell<dim>& owner = table_.shells[i];
       springs.begin();
       for (const unsigned close : {1u, 0u}) {
+        const float limit = springs.limit(owner);
         for (std::size_t n = starts_[i]; n < starts_[i + 1]; ++n) {
-          if (others_[n].close == close) springs.look_at(owner, table_.shells[others_[n].place]);
+          if (others_[n].close != close || others_[n].bound > limit) continue;
+          springs.look_at(owner, table_.shells[others_[n].place]);
         }
       }
       for (int f = 0; f <= dim; ++f) {

@@ -42,12 +42,13 @@ class SpringSearch {
     std::uint32_t place : 31;
     std::uint32_t
         close : 1;  // a whole face may: such shells are looked at first, and often leave the others out of the running
+    float bound;    // no semi-spring is nearer [m]
   };
   struct Near {
     std::uint32_t own;
     Other other;
   };
-  void add(std::size_t chunk, std::uint32_t own, std::uint32_t other, int vertices);
+  void add(std::size_t chunk, std::uint32_t own, std::uint32_t other, const Heights<dim>& above_other, float rounding);
 
   std::vector<std::vector<Near>> near_;  // of each chunk
   std::vector<std::uint32_t> starts_;    // of each shell in others_, and the end

@@ -35,7 +35,7 @@ double angle_at(const Corners<dim>& corners, int corner) {
 }
 
 struct EdgeUse {
-  std::array<NodeId, 2> nodes;
+  std::uint64_t nodes;  // the lower above the higher one, so that one comparison tells the order
   FaceId face;
   int side;
 
@@ -49,7 +49,7 @@ void pair_uses(const std::vector<EdgeUse>& uses, std::vector<SurfaceEdge>& edges
     const bool paired = i + 1 < uses.size() && uses[i].nodes == uses[i + 1].nodes;
     const EdgeUse& second = uses[paired ? i + 1 : i];
     const EdgeId edge{edges.size()};
-    edges.push_back({uses[i].nodes, {uses[i].face, second.face}});
+    edges.push_back({{NodeId{uses[i].nodes >> 32}, NodeId{uses[i].nodes & 0xffffffffu}}, {uses[i].face, second.face}});
     surface.face_edges[uses[i].face][uses[i].side] = edge;
     surface.face_edges[second.face][second.side] = edge;
     i += paired ? 2 : 1;
@@ -67,7 +67,7 @@ std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk 
       const auto& nodes = surface.faces[FaceId{f}].nodes;
       for (int side = 0; side < 3; ++side) {
         const auto [low, high] = std::minmax(nodes[side], nodes[(side + 1) % 3]);
-        uses.push_back({{low, high}, FaceId{f}, side});
+        uses.push_back({std::uint64_t{low.index()} << 32 | high.index(), FaceId{f}, side});
       }
     }
     std::sort(uses.begin(), uses.end());
