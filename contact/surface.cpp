@@ -101,11 +101,34 @@ void measure_face(FaceId f, Surface<dim>& surface) {
 }
 
 template <int dim>
+Point<dim> weighted_normal(const Surface<dim>& surface, FaceId f, int corner) {
+  return angle_at<dim>(corners_of(surface, f), corner) * surface.normals[f];
+}
+
+template <int dim>
 void add_node_normals(FaceId f, Surface<dim>& surface) {
-  const Corners<dim> corners = corners_of(surface, f);
-  for (int i = 0; i < dim; ++i) {
-    surface.node_normals[surface.faces[f].nodes[i]] += angle_at<dim>(corners, i) * surface.normals[f];
+  for (int i = 0; i < dim; ++i) surface.node_normals[surface.faces[f].nodes[i]] += weighted_normal(surface, f, i);
+}
+
+template <int dim>
+bool is_whole(const Surface<dim>& surface, BlockId block) {
+  return surface.mesh.blocks[block].elements.size() == 1;
+}
+
+// At a node of a block of one element, whose few faces follow one another.
+template <int dim>
+Point<dim> node_normal(const Surface<dim>& surface, FaceId face, NodeId node) {
+  const BlockId block = surface.faces[face].block;
+  const auto of_block = [&](std::size_t f) { return f < surface.faces.size() && surface.faces[FaceId{f}].block == block; };
+  std::size_t f = face.index();
+  while (f > 0 && of_block(f - 1)) --f;
+  Point<dim> sum = Point<dim>::Zero();
+  for (; of_block(f); ++f) {
+    const auto& nodes = surface.faces[FaceId{f}].nodes;
+    const auto corner = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
+    if (corner < dim) sum += weighted_normal(surface, FaceId{f}, static_cast<int>(corner));
   }
+  return sum;
 }
 
 }  // namespace
@@ -127,11 +150,15 @@ template <int dim>
 void add_rims(Surface<dim>& surface) {
   const std::vector<std::size_t> starts = block_starts(surface.mesh, surface.faces);
   const std::vector<Chunk> blocks = chunks_by_size(starts, chunk_size);
-  surface.node_normals = Table<NodeId, Point<dim>>(surface.mesh.nodes.size(), Point<dim>::Zero());
-  // Faces of two blocks have no node in common.
-  for_chunks(blocks, [&](Chunk chunk) {
-    for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) add_node_normals<dim>(FaceId{f}, surface);
-  });
+  if (surface.mesh.blocks.size() < surface.mesh.elements.size()) {
+    surface.node_normals = Table<NodeId, Point<dim>>(surface.mesh.nodes.size(), Point<dim>::Zero());
+    // Faces of two blocks have no node in common.
+    for_chunks(blocks, [&](Chunk chunk) {
+      for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) {
+        if (!is_whole(surface, surface.faces[FaceId{f}].block)) add_node_normals<dim>(FaceId{f}, surface);
+      }
+    });
+  }
   if constexpr (dim == 3) add_edges(starts, blocks, surface);
 }
 
@@ -150,7 +177,8 @@ Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::arra
   if (zeros == 0) return surface.normals[face];
   if (zeros == dim - 1) {
     const auto corner = std::find_if_not(weights.begin(), weights.end(), zero) - weights.begin();
-    return surface.node_normals[surface.faces[face].nodes[corner]];
+    const NodeId node = surface.faces[face].nodes[corner];
+    return is_whole(surface, surface.faces[face].block) ? node_normal(surface, face, node) : surface.node_normals[node];
   }
   const auto opposite = std::find_if(weights.begin(), weights.end(), zero) - weights.begin();
   const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(opposite + 1) % 3]];

@@ -25,7 +25,9 @@ struct Surface {
   Table<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)
   Table<FaceId, double> lengths;      // characteristic length of the face's element, eq. (11) [m]
   // The rims, if they have been added: what is asked where a point is closest to a node or an edge.
-  Table<NodeId, Point<dim>> node_normals;  // mean of the faces around, weighted by their angle there; any length
+  // Of the blocks of several elements, the mean of the faces around, weighted by their angle there; any length. It is asked too
+  // rarely for the others.
+  Table<NodeId, Point<dim>> node_normals;
   // 3-D only. Edge i of a face joins its corners i and i + 1.
   Table<EdgeId, SurfaceEdge> edges;
   Table<FaceId, std::array<EdgeId, 3>> face_edges;
