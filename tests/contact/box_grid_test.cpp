@@ -75,6 +75,26 @@ TEST(BoxGrid, FindsThemInAFlatLayerWithOneBoxFarAway) {
   compare<3>(boxes, 1000);
 }
 
+TEST(BoxGrid, FindsAllThatMeetAnyBox) {
+  std::mt19937 random(6);
+  const auto boxes = random_boxes<3>(1000, 1, 0.5, random);
+  const BoxGrid<3> grid(boxes);
+  std::vector<std::uint32_t> found;
+  for (auto box : random_boxes<3>(100, 1, 5, random)) {
+    box.translate(Point<3>(-0.5, 0, 0.3));
+    grid.find(box, found);
+    std::set<std::uint32_t> members;
+    for (const auto place : found) EXPECT_TRUE(members.insert(grid.order()[place]).second) << "found twice";
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (boxes[i].intersects(box)) {
+        EXPECT_EQ(members.count(i), 1);
+      } else if (members.count(i) > 0) {
+        EXPECT_LT(boxes[i].exteriorDistance(box), 1e-5);
+      }
+    }
+  }
+}
+
 TEST(BoxGrid, LooksOnlyAtAHandfulOfBoxesWhateverTheirNumber) {
   // A layer of unit boxes, each of which meets its eight neighbours: half of them find it.
   std::vector<Aabb<3>> boxes;
