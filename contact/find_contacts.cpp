@@ -89,8 +89,9 @@ class SemiSprings {
 
   void put_into(std::vector<Contact<dim>>& contacts) const {
     std::vector<const SpringTouch<dim>*> touches(targets_.of_springs.size(), nullptr);
-    for (const auto& part : targets_.touches) {
-      for (const SpringTouch<dim>& touch : part) touches[touch.spring] = &touch;
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t i = 0; i < targets_.touches.size(); ++i) {
+      for (const SpringTouch<dim>& touch : targets_.touches[i]) touches[touch.spring] = &touch;
     }
     for_chunks(surface_.faces.size(), [&](Chunk chunk) {
       Contact<dim>* next = contacts.data() + starts_[chunk.begin];
@@ -108,7 +109,9 @@ class SemiSprings {
   }
 
  private:
-  [[nodiscard]] BodyId body_of(FaceId face) const { return surface_.mesh.blocks[surface_.faces[face].block].body; }
+  [[nodiscard]] BodyId body_of(FaceId face) const {
+    return surface_.mesh.blocks[surface_.faces[face].block].body;
+  }
 
   [[nodiscard]] bool counts(FaceId owner, FaceId target) const {
     return options_.pairs.empty() || options_.model_of(body_of(owner), body_of(target)) == Model::semi_spring;

@@ -11,8 +11,9 @@ namespace {
 template <int dim>
 void take(std::vector<std::vector<SpringTouch<dim>>>&& touches, std::size_t faces, Targets<dim>& targets) {
   targets.of_springs.resize(faces * dim);
-  for (const auto& part : touches) {
-    for (const auto& touch : part) targets.of_springs[touch.spring] = touch.target;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    for (const auto& touch : touches[i]) targets.of_springs[touch.spring] = touch.target;
   }
   targets.touches = std::move(touches);
 }
