@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "engine/base/threads.h"
+
 namespace scree::mesh {
 
 namespace {
@@ -23,9 +25,13 @@ class Session {
       gmsh::finalize();
     } catch (const GmshFailure&) {  // of a session that is over
     }
+    use_threads(threads_);
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+
+ private:
+  int threads_ = threads_in_use();  // which Gmsh sets to its own number for all loops of this thread
 };
 
 template <int corners>

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "engine/base/threads.h"
 #include "tests/mesh/body_builders.h"
 
 namespace scree::mesh {
@@ -57,6 +58,14 @@ TEST(MakeBlocks, ABoxHasItsVolumeAndItsSurface) {
   }
   EXPECT_LT(closed.norm(), 1e-15);
   EXPECT_NEAR(area, 2 * (0.4 * 0.3 + 0.3 * 0.2 + 0.2 * 0.4), 1e-14);
+}
+
+TEST(MakeBlocks, LeavesTheNumberOfThreadsAsItWas) {
+  const int before = threads_in_use();
+  use_threads(3);
+  static_cast<void>(make_blocks<3>({body_of(box_of(0.4, 0.3, 0.2), 0.2)}));
+  EXPECT_EQ(threads_in_use(), 3);
+  use_threads(before);
 }
 
 TEST(MakeBlocks, TheFacesOfABoxAreFlatToTheBit) {
