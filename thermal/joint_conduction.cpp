@@ -3,47 +3,13 @@
 #include <algorithm>
 
 #include "thermal/contact_conduction.h"
+#include "thermal/incidence.h"
+#include "thermal/row_assembly.h"
 #include "thermal/sparse_sum.h"
 
 namespace scree::thermal {
 
 namespace {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-// A list of entries takes some 400 bytes a contact while it becomes a matrix.
-constexpr std::size_t contacts_at_once = 1 << 18;
-
-// A sum of many sparse matrices. Each is added to sums of its own size, so that none is copied more often than their number has
-// digits in base 2.
-class GrowingSum {
- public:
-  void add(SparseMatrix part) {
-    std::size_t parts = 1;
-    while (!sums_.empty() && sums_.back().parts == parts) {
-      part = sum_of(sums_.back().sum, part);
-      parts *= 2;
-      sums_.pop_back();
-    }
-    sums_.push_back({parts, std::move(part)});
-  }
-
-  void add_to(SparseMatrix& matrix) {
-    if (sums_.empty()) return;
-    SparseMatrix total = std::move(sums_.back().sum);
-    sums_.pop_back();
-    for (; !sums_.empty(); sums_.pop_back()) total = sum_of(sums_.back().sum, total);
-    matrix = sum_of(matrix, total);
-  }
-
- private:
-  struct Sum {
-    std::size_t parts;
-    SparseMatrix sum;
-  };
-  std::vector<Sum> sums_;
-};
 
 // The same difference between rows of the model: all of a lumped side's weight is on its one row.
 template <int dim>
@@ -65,54 +31,86 @@ TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, c
   return difference;
 }
 
-// g w w^T.
+// What the contacts add to the rows of K: g w w^T of each, less w q^T + q w^T of perfect ones.
 template <int dim>
-void add_contact(const TemperatureDifference<dim>& difference, double conductance, Triplets& entries) {
-  for (int i = 0; i < 2 * dim; ++i) {
-    for (int j = 0; j < 2 * dim; ++j) {
-      const double product = difference.weights[i] * difference.weights[j];
-      if (product == 0) continue;  // a semi-edge leaves a third of its entries unused
-      entries.emplace_back(difference.nodes[i].value(), difference.nodes[j].value(), conductance * product);
-    }
-  }
-}
-
-// The points of one overlap share their elements, and so their rows of K: they are summed before they are entered.
-template <int dim>
-class PerfectSum {
+class JointRows {
  public:
-  static constexpr int corners = PerfectTerm<dim>::corners;
-  using Matrix = Eigen::Matrix<double, corners, corners>;
+  JointRows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+            const NodeMap& rows, std::size_t size)
+      : contacts_(contacts),
+        conduction_(conduction),
+        form_(form),
+        rows_(rows),
+        contacts_at_(size, [this](const auto& visit) { visit_contacts(visit); }),
+        perfect_at_(conduction.perfect.empty() ? 0 : size, [this](const auto& visit) { visit_perfect(visit); }) {}
 
-  PerfectSum(const NodeMap& rows, Triplets& entries) : rows_(rows), entries_(entries) {}
-
-  void add(const PerfectTerm<dim>& term, double conductance) {
-    if (term.nodes != nodes_) flush();
-    nodes_ = term.nodes;
-    const Eigen::Map<const Eigen::Matrix<double, corners, 1>> jump(term.jump.data()), flux(term.flux.data());
-    sum_ += conductance * jump * jump.transpose() - jump * flux.transpose() - flux * jump.transpose();
-  }
-
-  // Diagonals are minus the sum of the others, so that rows sum to zero to the last bit of what is entered.
-  void flush() {
-    for (int i = 0; i < corners; ++i) {
-      for (int j = 0; j < i; ++j) {
-        if (sum_(i, j) == 0) continue;
-        const int row = rows_[nodes_[i]].value(), column = rows_[nodes_[j]].value();
-        entries_.emplace_back(row, column, sum_(i, j));
-        entries_.emplace_back(column, row, sum_(i, j));
-        entries_.emplace_back(row, row, -sum_(i, j));
-        entries_.emplace_back(column, column, -sum_(i, j));
-      }
+  void add_row(int row, RowSum& sum) const {
+    if (!conduction_.perfect.empty()) {
+      for (const std::uint32_t term : perfect_at_.of(row)) add_perfect(conduction_.perfect[term], row, sum);
     }
-    sum_.setZero();
+    for (const std::uint32_t contact : contacts_at_.of(row)) add_contact(contact, row, sum);
   }
 
  private:
+  TemperatureDifference<dim> difference(std::size_t contact) const {
+    return between_rows(temperature_difference(contacts_.contacts[contact], form_), rows_);
+  }
+
+  template <class Visit>
+  void visit_contacts(const Visit& visit) const {
+    auto perfect = conduction_.perfect.begin();
+    for (std::size_t c = 0; c < conduction_.conductances.size(); ++c) {
+      const bool is_perfect = perfect != conduction_.perfect.end() && perfect->contact == c;
+      if (is_perfect) ++perfect;
+      if (is_perfect || !(conduction_.conductances[c] > 0)) continue;
+      const TemperatureDifference<dim> between = difference(c);
+      for (int i = 0; i < 2 * dim; ++i) {
+        // A semi-edge leaves a third of its entries unused.
+        if (between.weights[i] != 0) visit(between.nodes[i].value(), static_cast<std::uint32_t>(c));
+      }
+    }
+  }
+
+  template <class Visit>
+  void visit_perfect(const Visit& visit) const {
+    for (std::size_t term = 0; term < conduction_.perfect.size(); ++term) {
+      for (const NodeId node : conduction_.perfect[term].nodes) {
+        visit(rows_[node].value(), static_cast<std::uint32_t>(term));
+      }
+    }
+  }
+
+  void add_contact(std::size_t contact, int row, RowSum& sum) const {
+    const TemperatureDifference<dim> between = difference(contact);
+    int here = 0;
+    while (between.nodes[here].value() != row || between.weights[here] == 0) ++here;
+    for (int i = 0; i < 2 * dim; ++i) {
+      const double product = between.weights[here] * between.weights[i];
+      if (product != 0) sum.add(between.nodes[i].value(), conduction_.conductances[contact] * product);
+    }
+  }
+
+  // The diagonal is minus the sum of the others, so that the row sums to zero to the last bit of what is entered.
+  void add_perfect(const PerfectTerm<dim>& term, int row, RowSum& sum) const {
+    const double conductance = conduction_.conductances[term.contact];
+    int here = 0;
+    while (rows_[term.nodes[here]].value() != row) ++here;
+    for (int i = 0; i < term.corners; ++i) {
+      if (i == here) continue;
+      const double entry =
+          conductance * (term.jump[here] * term.jump[i]) - (term.jump[here] * term.flux[i] + term.jump[i] * term.flux[here]);
+      if (entry == 0) continue;
+      sum.add(rows_[term.nodes[i]].value(), entry);
+      sum.add(row, -entry);
+    }
+  }
+
+  const contact::ContactSet<dim>& contacts_;
+  const JointConduction<dim>& conduction_;
+  JointForm form_;
   const NodeMap& rows_;
-  Triplets& entries_;
-  std::array<NodeId, corners> nodes_;
-  Matrix sum_ = Matrix::Zero();
+  Incidence contacts_at_;
+  Incidence perfect_at_;
 };
 
 }  // namespace
@@ -135,43 +133,17 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
   return conduction;
 }
 
-namespace {
-
-// Of the contacts from `first` to before `last`.
-template <int dim>
-void add_entries(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
-                 const NodeMap& rows, std::size_t first, std::size_t last, Triplets& entries) {
-  auto perfect = std::lower_bound(conduction.perfect.begin(), conduction.perfect.end(), first,
-                                  [](const PerfectTerm<dim>& term, std::size_t contact) { return term.contact < contact; });
-  PerfectSum<dim> sum(rows, entries);
-  for (std::size_t c = first; c < last; ++c) {
-    const double conductance = conduction.conductances[c];
-    if (perfect != conduction.perfect.end() && perfect->contact == c) {
-      sum.add(*perfect++, conductance);
-    } else if (conductance > 0) {
-      add_contact(between_rows(temperature_difference(contacts.contacts[c], form), rows), conductance, entries);
-    }
-  }
-  sum.flush();
-}
-
-}  // namespace
-
 template <int dim>
 void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
                 const NodeMap& rows, SparseMatrix& conductance) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
-  Triplets entries;
-  GrowingSum sum;
-  for (std::size_t first = 0; first < conduction.conductances.size(); first += contacts_at_once) {
-    const std::size_t last = std::min(first + contacts_at_once, conduction.conductances.size());
-    entries.clear();
-    add_entries(contacts, conduction, form, rows, first, last, entries);
-    SparseMatrix part(conductance.rows(), conductance.cols());
-    part.setFromTriplets(entries.begin(), entries.end());
-    sum.add(std::move(part));
-  }
-  sum.add_to(conductance);
+  if (contacts.contacts.empty()) return;
+  const auto size = static_cast<int>(conductance.rows());
+  const JointRows<dim> joints(contacts, conduction, form, rows, static_cast<std::size_t>(size));
+  conductance = sum_of(conductance, assembled(size, [&](int row, RowSum& sum) {
+                         joints.add_row(row, sum);
+                         return 1.0;
+                       }));
 }
 
 template <int dim>

@@ -21,7 +21,7 @@ template <int dim>
 JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                                       const contact::ContactSet<dim>& contacts, const JointOptions& joint);
 
-// Adds the entries of K, a part of the contacts at a time.
+// Adds the entries of K.
 template <int dim>
 void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
                 const NodeMap& rows, Eigen::SparseMatrix<double>& conductance);

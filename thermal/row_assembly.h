@@ -1,0 +1,67 @@
+// Sparse matrices put together row by row, on all threads. Each row is summed by itself in the order of its pieces, so the
+// number of threads changes no bit, and a matrix is symmetric to the bit if the pieces are.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/base/threads.h"
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+// Consecutive rows as they grow.
+struct RowChunk {
+  std::vector<int> columns;
+  std::vector<double> values;
+  std::vector<int> ends;  // of each row, in this chunk
+};
+
+// The row that is being summed, and where each column of it stands; each thread has one.
+class RowSum {
+ public:
+  explicit RowSum(int columns) : slot_(static_cast<std::size_t>(columns), -1) {}
+
+  void add(int column, double value) {
+    int& slot = slot_[static_cast<std::size_t>(column)];
+    if (slot < 0) {
+      slot = static_cast<int>(row_.size());
+      row_.push_back({column, 0});
+    }
+    row_[static_cast<std::size_t>(slot)].value += value;
+  }
+
+  // Appends the row times `factor`, in the order of its columns; the next one begins.
+  void append_to(RowChunk& chunk, double factor);
+
+ private:
+  struct Entry {
+    int column;
+    double value;
+  };
+  std::vector<int> slot_;
+  std::vector<Entry> row_;
+};
+
+inline constexpr int rows_in_chunk = 4096;
+
+// The chunks, one behind the other, as a square matrix.
+SparseMatrix joined(const std::vector<RowChunk>& chunks, int size);
+
+// A square matrix. fill(row, sum) adds the entries of a row and returns what they are to be multiplied by.
+template <class Fill>
+SparseMatrix assembled(int size, const Fill& fill) {
+  std::vector<RowChunk> chunks(static_cast<std::size_t>((size + rows_in_chunk - 1) / rows_in_chunk));
+#pragma omp parallel if (size >= rows_worth_sharing)
+  {
+    RowSum sum(size);
+#pragma omp for schedule(dynamic)
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+      const int first = static_cast<int>(c) * rows_in_chunk;
+      for (int row = first; row < std::min(size, first + rows_in_chunk); ++row) sum.append_to(chunks[c], fill(row, sum));
+    }
+  }
+  return joined(chunks, size);
+}
+
+}  // namespace scree::thermal
