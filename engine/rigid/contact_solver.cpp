@@ -1,5 +1,7 @@
 #include "engine/rigid/contact_solver.h"
 
+#include <algorithm>
+
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <LinearMath/btTransformUtil.h>
 
@@ -24,6 +26,19 @@ int slabs_for(std::size_t bodies) {
   int slabs = 1;
   while (slabs < most_slabs && static_cast<std::size_t>(2 * slabs) * bodies_per_slab <= bodies) slabs *= 2;
   return slabs;
+}
+
+ContactSolver::Touch touch_of(const btPersistentManifold& manifold) {
+  ContactSolver::Touch touch{{manifold.getBody0()->getUserIndex(), manifold.getBody1()->getUserIndex()}};
+  btVector3 impulse(0, 0, 0);
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    impulse += point.m_appliedImpulse * point.m_normalWorldOnB + point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+               point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+    touch.depth = std::max(touch.depth, -point.m_distance1);
+  }
+  touch.impulse = impulse.length();
+  return touch;
 }
 
 }  // namespace
@@ -120,6 +135,7 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds ma
       bodies[i]->setCompanionId(-1);
     }
   });
+  touches_.resize(entries_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       for (int k = 0; k < entries_[i].count; ++k) {
@@ -129,6 +145,7 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds ma
         point.m_appliedImpulseLateral1 = row.friction[0].applied;
         point.m_appliedImpulseLateral2 = row.friction[1].applied;
       }
+      touches_[i] = touch_of(*manifolds[i]);
     }
   });
 }

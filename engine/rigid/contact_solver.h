@@ -19,9 +19,19 @@ class ContactSolver {
  public:
   using Manifolds = std::span<btPersistentManifold* const>;
 
+  // A pair of blocks that touch.
+  struct Touch {
+    std::array<int, 2> blocks{-1, -1};
+    double impulse = 0;  // of the last step, magnitude [N s]
+    double depth = 0;    // of the deepest overlap as the step began, 0 if there is none [m]
+  };
+
   // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other bodies of
-  // the manifolds are fixed. The same bits for any number of threads.
+  // the manifolds are fixed. The same bits for any number of threads. The bodies' user indices are their blocks.
   void solve(const std::vector<btRigidBody*>& bodies, Manifolds manifolds, const StepLengths& step, int iterations);
+
+  // Of the last step, one per manifold.
+  [[nodiscard]] std::span<const Touch> touches() const { return touches_; }
 
  private:
   struct Entry {
@@ -42,6 +52,7 @@ class ContactSolver {
   std::vector<BodyStart> starts_;
   std::vector<BodyChange> changes_;
   std::vector<Entry> entries_;    // one per manifold
+  std::vector<Touch> touches_;    // likewise
   std::vector<ContactRow> rows_;  // by batches
   std::vector<double> overlaps_;  // one per row, see overlap_impulse
   Batches batches_;

@@ -8,7 +8,9 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -81,9 +83,11 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
   // Takes over new points. One at a time, for manifolds come from a common pool.
   void take(const Pair& pair, const ContactPoints& contact);
+  // Whether looks will find nothing to do as long as both blocks are at home.
+  [[nodiscard]] bool far(const Pair& pair) const;
 
  private:
-  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative) const;
+  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
   [[nodiscard]] ContactPoints evaluate(const Pair& pair);
   void write_points(const Pair& pair, const ContactPoints& contact);
   void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
@@ -94,6 +98,7 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   const ContactRanges& ranges_;
   btPersistentManifold* manifold_ = nullptr;
   btTransform relative_;         // pose of the second in the first's frame when evaluated
+  double moved_ = 0;             // since then, at most [m]
   double evaluated_reach_ = -1;  // negative: never evaluated
   packing::Separation separation_;
   btVector3 normal_;            // from the second to the first, in the first's frame
@@ -111,6 +116,7 @@ std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
   const btTransform relative = pair.first->getWorldTransform().inverseTimes(pair.second->getWorldTransform());
   if (!still_valid(pair, relative)) {
     relative_ = relative;
+    moved_ = 0;
     return evaluate(pair);
   }
   if (manifold_ != nullptr) move_points(pair, false);
@@ -125,13 +131,24 @@ void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
   }
 }
 
-bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) const {
+bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) {
   if (evaluated_reach_ < 0) return false;
   const auto& b = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape());
-  const double moved = (relative.getOrigin() - relative_.getOrigin()).length() +
-                       b.radius() * difference(relative.getBasis(), relative_.getBasis());
-  if (separation_.distance - moved > pair.reach) return true;
-  return moved < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
+  moved_ = (relative.getOrigin() - relative_.getOrigin()).length() +
+           b.radius() * difference(relative.getBasis(), relative_.getBasis());
+  if (separation_.distance - moved_ > pair.reach) return true;
+  return moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
+}
+
+// Each block may have been on the one side of its home and be on the other later. What still_valid takes for the way moved
+// grows with the turn of the first block, times the distance to the second one's centre and its radius.
+bool PolyhedronCollision::far(const Pair& pair) const {
+  const double first = static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius();
+  const double second = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape()).radius();
+  const double arm = relative_.getOrigin().length() + moved_ + 4 * ranges_.home + second;
+  const double moved_more = 2 * ranges_.home * (1 + std::max(1.0, arm / first));
+  const double reach = ranges_.near + 2 * ranges_.home;
+  return manifold_ == nullptr && separation_.distance - moved_ > 1.01 * (reach + moved_more);
 }
 
 ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
@@ -281,6 +298,23 @@ int block_of(const btBroadphaseProxy* proxy) {
   return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
 }
 
+// What is noted in a pair that was found far apart, so that a look at it reads nothing else: its blocks, from 1 on.
+struct FarBlocks {
+  std::int32_t first, second;
+};
+static_assert(sizeof(FarBlocks) == sizeof(void*));
+
+void note(btBroadphasePair& pair, bool far) {
+  const FarBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
+  pair.m_internalInfo1 = far ? std::bit_cast<void*>(blocks) : nullptr;
+}
+
+bool stays_far(const btBroadphasePair& pair, const Homes& homes) {
+  if (pair.m_internalInfo1 == nullptr) return false;
+  const auto [first, second] = std::bit_cast<FarBlocks>(pair.m_internalInfo1);
+  return homes.at_home(first - 1) && homes.at_home(second - 1);
+}
+
 btDefaultCollisionConstructionInfo pools(int blocks) {
   btDefaultCollisionConstructionInfo info;
   // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
@@ -292,8 +326,8 @@ btDefaultCollisionConstructionInfo pools(int blocks) {
 
 }  // namespace
 
-Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights)
-    : btCollisionDispatcher(&configuration), flights_(flights) {
+Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes)
+    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes) {
   setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
 }
 
@@ -310,14 +344,16 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   for_short_chunks(count, [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const auto number = static_cast<int>(i);
+      if (pairs[number].m_algorithm == nullptr || stays_far(pairs[number], homes_)) continue;
       const WrappedPair wrapped(pairs[number]);
-      if (pairs[number].m_algorithm == nullptr) continue;
       if (!wrapped.of_polyhedra()) {
         news[chunk.number].push_back({number, std::nullopt});
         continue;
       }
       auto& algorithm = static_cast<PolyhedronCollision&>(*pairs[number].m_algorithm);
-      const auto contact = algorithm.look(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep));
+      const auto pair = algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep);
+      const auto contact = algorithm.look(pair);
+      note(pairs[number], algorithm.far(pair) && (!contact || contact->count == 0));
       if (contact) news[chunk.number].push_back({number, contact});
     }
   });

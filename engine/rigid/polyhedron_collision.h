@@ -9,6 +9,7 @@
 
 #include "engine/packing/separation.h"
 #include "engine/rigid/flights.h"
+#include "engine/rigid/homes.h"
 
 namespace scree::rigid {
 
@@ -18,6 +19,7 @@ struct ContactRanges {
   double face_bias = 0;     // see packing::separation [m]
   double still = 0;         // a pair that moved less than this since its points were computed keeps them [m]
   double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
+  double home = 0;          // range of Homes [m]
 };
 
 // Creates the algorithm for two polyhedra and leaves other shapes (compounds) to Bullet.
@@ -35,8 +37,9 @@ class CollisionConfiguration final : public btDefaultCollisionConfiguration {
 // the same order for any number of threads.
 class Dispatcher final : public btCollisionDispatcher {
  public:
-  // The objects' user indices are their blocks. Blocks that fly together are not looked at.
-  Dispatcher(CollisionConfiguration& configuration, Flights& flights);
+  // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
+  // home.
+  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes);
   void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
 
@@ -45,6 +48,7 @@ class Dispatcher final : public btCollisionDispatcher {
   void add_algorithm(btBroadphasePair& pair);
 
   Flights& flights_;
+  const Homes& homes_;
 };
 
 }  // namespace scree::rigid

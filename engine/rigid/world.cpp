@@ -48,10 +48,11 @@ double length_scale(const mesh::BlockMesh<3>& mesh) {
   return count > 0 ? sum / count : 1.0;
 }
 
-// The fractions are those measured to work on the pile of 25 mm blocks: 0.25 mm, 0.2 mm and 50 um (README.md).
+// The fractions are those measured to work on the pile of 25 mm blocks: 0.25 mm, 0.2 mm, 50 um and, the last, 30 um
+// (README.md).
 ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& options) {
   const double scale = length_scale(mesh);
-  return {0.01 * scale, 0.008 * scale, 2e-3 * scale, 2 * options.gravity.norm() * options.step};
+  return {0.01 * scale, 0.008 * scale, 2e-3 * scale, 2 * options.gravity.norm() * options.step, 6e-4 * scale};
 }
 
 btTransform transform_of(const Pose& pose) {
@@ -95,7 +96,8 @@ struct World::Bullet {
   Bullet(const ContactRanges& ranges, const mesh::BlockMesh<3>& mesh, const SettleOptions& options)
       : configuration(ranges, static_cast<int>(mesh.blocks.size())),
         flights(mesh, options.release_time > 0),
-        dispatcher(configuration, flights),
+        homes(mesh.blocks.size(), ranges.home),
+        dispatcher(configuration, flights, homes),
         world(&dispatcher, &broadphase, nullptr, &configuration),
         bounce_speed(ranges.bounce_speed) {
     gDbvtMargin = ranges.near;
@@ -104,6 +106,7 @@ struct World::Bullet {
 
   CollisionConfiguration configuration;
   Flights flights;
+  Homes homes;
   Dispatcher dispatcher;
   btDbvtBroadphase broadphase;
   ContactSolver solver;
@@ -214,8 +217,11 @@ World::~World() {
 void World::step(double time_step, int iterations) {
   // Boxes hold the way of the step.
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i)
-      free_bodies_[i]->predictIntegratedTransform(time_step, free_bodies_[i]->getInterpolationWorldTransform());
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      btRigidBody& body = *free_bodies_[i];
+      bullet_->homes.look(body, items_[body.getUserIndex()].radius, time_step);
+      body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
+    }
   });
   bullet_->world.getDispatchInfo().m_timeStep = time_step;
   bullet_->world.performDiscreteCollisionDetection();
@@ -269,17 +275,9 @@ void World::scale_impulses(double factor) {
 double World::mean_contact_force(double time_step) const {
   double sum = 0;
   double pairs = 0;
-  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
-    btVector3 impulse(0, 0, 0);
-    for (int j = 0; j < manifold.getNumContacts(); ++j) {
-      const btManifoldPoint& point = manifold.getContactPoint(j);
-      impulse += point.m_appliedImpulse * point.m_normalWorldOnB +
-                 point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-    }
-    if (impulse.length2() <= 0) continue;
-    sum += impulse.length() / time_step;
+  for (const ContactSolver::Touch& touch : bullet_->solver.touches()) {
+    if (touch.impulse <= 0) continue;
+    sum += touch.impulse / time_step;
     ++pairs;
   }
   return pairs > 0 ? sum / pairs : 0.0;
@@ -287,14 +285,9 @@ double World::mean_contact_force(double time_step) const {
 
 double World::deepest_overlap() const {
   double deepest = 0;
-  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
-    double distance = 0;
-    for (int j = 0; j < manifold.getNumContacts(); ++j) distance = std::min(distance, manifold.getContactPoint(j).m_distance1);
-    if (distance >= 0) continue;
-    const double size =
-        std::min(items_[manifold.getBody0()->getUserIndex()].size, items_[manifold.getBody1()->getUserIndex()].size);
-    deepest = std::max(deepest, -distance / size);
+  for (const ContactSolver::Touch& touch : bullet_->solver.touches()) {
+    if (touch.depth <= 0) continue;
+    deepest = std::max(deepest, touch.depth / std::min(items_[touch.blocks[0]].size, items_[touch.blocks[1]].size));
   }
   return deepest;
 }

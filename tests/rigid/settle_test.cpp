@@ -173,6 +173,25 @@ TEST(Settle, ACollisionKeepsMomentumAndEnergyAsRestitutionSays) {
   }
 }
 
+TEST(Settle, ABlockAtRestIsPushedAwayByOneThatComesLaterFastOrSlow) {
+  // Nothing rubs or rebounds: two equal blocks go on together at half the speed of the one that came. The slow one moves less
+  // in a step than a block at home may (homes.h).
+  for (const double speed : {1.0, 0.02}) {
+    const double gap = 0.5 * speed;  // closed after half a second
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {4, 2, 0.1}, {0, 0, -0.05}, true);
+    const BlockId comes = add_box(mesh, {0.1, 0.1, 0.1}, {-0.1 - gap, 0, 0.05}, false, {speed, 0, 0});
+    const BlockId rests = add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.05}, false);
+    double before = 1;
+    const auto packing = settle(mesh, material(0), for_time(1.5), [&](double time, const auto& poses) {
+      if (time < 0.49) before = std::abs(poses[rests].translation.x());
+    });
+    EXPECT_LT(before, 1e-6 * gap);
+    EXPECT_NEAR(packing.poses[rests].translation.x(), gap, 0.02 * gap);
+    EXPECT_NEAR(packing.poses[comes].translation.x(), 2 * gap, 0.02 * gap);
+  }
+}
+
 TEST(Settle, ALooseHeapKeepsItsMomentumWithoutGravity) {
   mesh::BlockMesh<3> mesh;
   const std::array<Vector3d, 4> corners{Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0.02, 0.1, 0),
