@@ -158,8 +158,10 @@ SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<Mater
   set_capacities(pieces, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
                                       [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
-  if (any_varies) model.varying->unit_conductance = rows_of(pieces, materials, model, incidence, Which::unit);
-  if (order == SpaceOrder::fourth) model.shared_capacity = rows_of(pieces, materials, model, incidence, Which::shared);
+  if (any_varies) rows_of(pieces, materials, model, incidence, Which::unit).swap(model.varying->unit_conductance);
+  if (order == SpaceOrder::fourth) {
+    rows_of(pieces, materials, model, incidence, Which::shared).swap(model.shared_capacity.emplace());
+  }
   return rows_of(pieces, materials, model, incidence, Which::constant);
 }
 

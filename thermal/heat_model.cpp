@@ -189,7 +189,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
-  model.conductance = assemble_blocks(mesh, materials, options.space_order, model);
+  assemble_blocks(mesh, materials, options.space_order, model).swap(model.conductance);
   if (model.lumped) lump(mesh, materials, model);
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;

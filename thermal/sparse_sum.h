@@ -1,4 +1,5 @@
-// Sums of sparse matrices, by all threads.
+// Sums of sparse matrices, by all threads. Eigen 3.4 copies a sparse matrix that is assigned or moved, and the copy is not in
+// huge pages: swap it instead.
 #pragma once
 
 #include "thermal/heat_model.h"

@@ -30,7 +30,7 @@ Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) 
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
   pile_ = run::placed_pile(scene_, packing);
   run::join(scene_, pile_);
-  model_ = std::make_shared<const thermal::HeatModel>(run::heat_model(scene_, pile_));
+  model_ = run::heat_model(scene_, pile_);
   if (scene_.heat->time.steady) {
     steady_ = thermal::find_steady_state(*model_, scene_.heat->time.solver).state;
   } else {

@@ -86,7 +86,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   HeatOutcome<dim> outcome;
   outcome.pile = find_pile(context, std::move(packing));
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
-                                [&] { return std::make_shared<const thermal::HeatModel>(heat_model(scene, outcome.pile)); });
+                                [&] { return heat_model(scene, outcome.pile); });
   if (scene.effective_window) {
     const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
                            scene.effective_window->max().template head<dim>());

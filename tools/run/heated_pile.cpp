@@ -55,17 +55,19 @@ void join(const Scene& scene, HeatedPile<dim>& pile) {
 }
 
 template <int dim>
-thermal::HeatModel heat_model(const Scene& scene, const HeatedPile<dim>& pile) {
+std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const HeatedPile<dim>& pile) {
   thermal::HeatOptions options = *scene.heat;
   options.initial_field = pile.start;
-  return thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, pile.joints, options);
+  // Made where it stays: Eigen 3.4 copies a sparse matrix that is moved.
+  return std::shared_ptr<const thermal::HeatModel>(
+      new thermal::HeatModel(thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, pile.joints, options)));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                               \
   template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,      \
                                             const std::function<void(const std::string&)>&); \
   template void join<dim>(const Scene&, HeatedPile<dim>&);                                   \
-  template thermal::HeatModel heat_model<dim>(const Scene&, const HeatedPile<dim>&);
+  template std::shared_ptr<const thermal::HeatModel> heat_model<dim>(const Scene&, const HeatedPile<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,6 @@ void join(const Scene& scene, HeatedPile<dim>& pile);
 
 // The balance of heat of a joined pile.
 template <int dim>
-thermal::HeatModel heat_model(const Scene& scene, const HeatedPile<dim>& pile);
+std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const HeatedPile<dim>& pile);
 
 }  // namespace scree::run
