@@ -89,7 +89,11 @@ void RowRuns::for_each_flow(const double* x, const Use& use) const {
     }
     for (int i = 0; i < part.rows; ++i) use(part.first + i, flow + columns * i);
   };
-  const int threads = rows() < rows_worth_sharing ? 1 : threads_in_use();
+  if (rows() < rows_worth_sharing) {
+    for (const Part& part : parts_) work_off(part);
+    return;
+  }
+  const int threads = threads_in_use();
   run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
     for (const Part& part : parts_of_task(task, threads)) work_off(part);
   });

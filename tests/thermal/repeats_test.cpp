@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/threads.h"
 #include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
 #include "thermal/flow_network.h"
@@ -77,16 +78,30 @@ TEST(RowRuns, ALineOfAGridIsThreeRuns) {
   EXPECT_EQ(RowRuns(model.conductance).count(), 3U * 7 * 5);
 }
 
-TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitInLooseTetrahedra) {
+HeatModel loose_tetrahedra(int cells) {
   test::Slab<3> slab;
-  slab.cells = {5, 5, 5};
+  slab.cells = {cells, cells, cells};
   slab.block_per_element = true;
   const mesh::BlockMesh<3> mesh = test::slab_mesh<3>({slab});
-  const HeatModel model =
-      make_heat_model<3>(mesh, test::rock_only(), test::matching_contacts(mesh), test::options_for(mesh, 300));
-  EXPECT_EQ(RowRuns(model.conductance).bundles(), mesh.blocks.size());
+  return make_heat_model<3>(mesh, test::rock_only(), test::matching_contacts(mesh), test::options_for(mesh, 300));
+}
+
+TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitInLooseTetrahedra) {
+  const HeatModel model = loose_tetrahedra(5);
+  EXPECT_EQ(RowRuns(model.conductance).bundles(), static_cast<std::size_t>(model.conductance.rows()) / 4);
   expect_same_flows<1>(model.conductance);
   expect_same_flows<2>(model.conductance);
+}
+
+TEST(RowRuns, FlowsAreThoseOfEachRowByItselfForAnyNumberOfThreads) {
+  const HeatModel model = loose_tetrahedra(8);
+  ASSERT_GT(model.conductance.rows(), rows_worth_sharing);
+  const int before = threads_in_use();
+  for (const int threads : {1, 2, 3, 7}) {
+    use_threads(threads);
+    expect_same_flows<2>(model.conductance);
+  }
+  use_threads(before);
 }
 
 TEST(RepeatedCells, CellsOfAGridHaveWhatEachHasByItself) {
