@@ -78,7 +78,7 @@ class SemiSprings {
       : surface_(surface), options_(options), targets_(find_targets(surface, options)), starts_(surface.faces.size() + 1, 0) {
     for_chunks(surface.faces.size(), [&](Chunk chunk) {
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-        starts_[f + 1] = springs_before(FaceId{f}, dim);
+        starts_[f + 1] = springs_of(FaceId{f});
         for_each_edge(FaceId{f}, [&](int, EdgeId) { ++starts_[f + 1]; });
       }
     });
@@ -117,10 +117,10 @@ class SemiSprings {
     return options_.pairs.empty() || options_.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
   }
 
-  // How many of a face's first corners have a semi-spring that counts.
-  [[nodiscard]] std::size_t springs_before(FaceId face, int corners) const {
+  // How many of a face's semi-springs count.
+  [[nodiscard]] std::size_t springs_of(FaceId face) const {
     std::size_t count = 0;
-    for (int corner = 0; corner < corners; ++corner) {
+    for (int corner = 0; corner < dim; ++corner) {
       const FaceId target = targets_.of_springs[face.index() * dim + corner];
       count += target.valid() && counts(face, target) ? 1 : 0;
     }
@@ -149,12 +149,11 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
   SCREE_EXPECT(options.tolerance >= 0);
   ContactSet<dim> set;
   auto faces = mesh::boundary_faces(mesh);
-  if (uses(options, Model::semi_spring)) {
-    set.semi_springs = faces.size() * dim;
-    set.semi_edges = dim == 3 ? faces.size() * 3 : 0;
-  }
+  const std::size_t all = faces.size();
   Surface<dim> surface = surface_of(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
   if (uses(options, Model::semi_spring)) {
+    set.semi_springs = all * dim;
+    set.semi_edges = dim == 3 ? all * 3 : 0;
     add_rims(surface);
     const SemiSprings<dim> semi_springs(surface, options);
     set.contacts.resize(semi_springs.count());

@@ -39,7 +39,8 @@ class NearFaces {
   }
 
   [[nodiscard]] bool is_near(const mesh::Face<dim>& face) const {
-    return std::any_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return near_[node.index()] != 0; });
+    const auto near = [&](NodeId node) { return near_[node.index()] != 0; };
+    return is_whole(face.block) || std::any_of(face.nodes.begin(), face.nodes.end(), near);
   }
 
  private:
@@ -64,13 +65,16 @@ class NearFaces {
     return boxes;
   }
 
-  // Marks the nodes of the elements of a block that come near another one.
+  // The faces of one element are kept whatever is around.
+  [[nodiscard]] bool is_whole(BlockId block) const { return mesh_.blocks[block].elements.size() == 1; }
+
+  // Marks the nodes of the elements of a block of several that come near another one.
   void mark(BlockId block) {
-    const bool whole = mesh_.blocks[block].elements.size() == 1;
-    const std::vector<Aabb<dim>> others = whole ? std::vector<Aabb<dim>>{} : others_near(block, boxes_[block.index()]);
-    if (!whole && others.empty()) return;
+    if (is_whole(block)) return;
+    const std::vector<Aabb<dim>> others = others_near(block, boxes_[block.index()]);
+    if (others.empty()) return;
     for_each_element(block, [&](ElementId element) {
-      if (!whole && !comes_near(block, element, others)) return;
+      if (!comes_near(block, element, others)) return;
       for (const NodeId node : mesh_.elements[element]) near_[node.index()] = true;
     });
   }

@@ -30,7 +30,6 @@ struct RowRun {
 
 class RowRuns {
  public:
-  RowRuns() = default;
   // Refers to the matrix, which is symmetric to the bit: its columns are its rows.
   explicit RowRuns(const Eigen::SparseMatrix<double>& matrix);
 
@@ -66,8 +65,8 @@ class RowRuns {
   template <int columns>
   void flows(const Part& part, const double* x, double* flow) const;
 
-  const int* column_ = nullptr;
-  const double* value_ = nullptr;
+  const int* column_;
+  const double* value_;
   std::vector<RowRun> runs_;
   RowBundles bundles_;
   std::vector<Part> parts_;

@@ -66,8 +66,6 @@ double estimate_of(int stages) {
   return (third - 1.0 / 6) / (0.25 - third);
 }
 
-// Space of fourth order: rates become (1 + C^-1 B) times themselves (fourth_order.h), by a second product each.
-
 // S at the nodes that the ledger reads.
 class WatchedMean {
  public:
@@ -178,7 +176,8 @@ class StabilisedScheme : public TimeScheme {
     share(result);
   }
 
-  // 1 + C^-1 B; nothing to do in second order.
+  // Space of fourth order: rates become (1 + C^-1 B) times themselves (fourth_order.h), by a second product each. Nothing to do
+  // in second order.
   void share(Columns& rates) {
     if (sharing_.empty()) return;
     sharing_.for_each_flow<2>(rates.data(), [&](int row, const double* flow) {

@@ -10,6 +10,9 @@ class btRigidBody;
 
 namespace scree::rigid {
 
+// No point within the radius about the origin is further from where it was than this [m].
+double way_moved(const btTransform& from, const btTransform& to, double radius);
+
 class Homes {
  public:
   // Blocks are at home until they are looked for: fixed ones for ever. No point of one at home is further than `range` [m] from

@@ -46,12 +46,6 @@ double fastest_approach(const btCollisionObjectWrapper& first, const btCollision
          static_cast<const PolyhedronShape&>(*second.getCollisionShape()).radius() * b.getAngularVelocity().length();
 }
 
-double difference(const btMatrix3x3& a, const btMatrix3x3& b) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += (a[i] - b[i]).length2();
-  return std::sqrt(sum);
-}
-
 class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
  public:
   PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
@@ -134,8 +128,7 @@ void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
 bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) {
   if (evaluated_reach_ < 0) return false;
   const auto& b = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape());
-  moved_ = (relative.getOrigin() - relative_.getOrigin()).length() +
-           b.radius() * difference(relative.getBasis(), relative_.getBasis());
+  moved_ = way_moved(relative_, relative, b.radius());
   if (separation_.distance - moved_ > pair.reach) return true;
   return moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
 }
