@@ -201,8 +201,8 @@ void PolyhedronCollision::set_bounce(const Pair& pair, btManifoldPoint& point, c
     return from_bullet(btRigidBody::upcast(object)->getVelocityInLocalPoint(arm));
   };
   const double approach = separation_.normal.dot(velocity(first, at.on_first) - velocity(second, at.on_second));
-  if (approach <= ranges_.bounce_speed || at.distance > approach * pair.time_step) return;
-  point.m_distance1 = std::min(at.distance, 0.0);
+  if (approach <= ranges_.bounce_speed || at.distance - ranges_.clearance > approach * pair.time_step) return;
+  point.m_distance1 = std::min(at.distance, ranges_.clearance);
   point.m_combinedRestitution = restitution;
 }
 

@@ -20,6 +20,7 @@ struct ContactRanges {
   double still = 0;         // a pair that moved less than this since its points were computed keeps them [m]
   double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
   double home = 0;          // range of Homes [m]
+  double clearance = 0;     // at which two blocks touch [m]
 };
 
 // Creates the algorithm for two polyhedra and leaves other shapes (compounds) to Bullet.

@@ -71,7 +71,7 @@ ContactRow contact_row(const btManifoldPoint& point, const Bodies& bodies, std::
   if (bodies[0] != nullptr) arms[0] = from_bullet(point.m_positionWorldOnA) - bodies[0]->centre;
   if (bodies[1] != nullptr) arms[1] = from_bullet(point.m_positionWorldOnB) - bodies[1]->centre;
   // A pair apart may close its gap within the step.
-  const double gap = std::max(point.m_distance1, 0.0) / step.time_step;
+  const double gap = std::max(point.m_distance1 - step.clearance, 0.0) / step.time_step;
   ContactRow row;
   row.normal =
       row_along(from_bullet(point.m_normalWorldOnB), bodies, arms, rebound(point, bodies, arms, step.bounce_speed) - gap);
@@ -87,7 +87,7 @@ ContactRow contact_row(const btManifoldPoint& point, const Bodies& bodies, std::
 }
 
 double overlap_impulse(const btManifoldPoint& point, const Row& normal, const StepLengths& step) {
-  return std::max(-point.m_distance1, 0.0) * step.erp / step.time_step * normal.scale;
+  return std::max(step.clearance - point.m_distance1, 0.0) * step.erp / step.time_step * normal.scale;
 }
 
 }  // namespace scree::rigid

@@ -21,6 +21,7 @@ struct StepLengths {
   double time_step = 0;     // [s]
   double erp = 0;           // part of an overlap that a step undoes [-]
   double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
+  double clearance = 0;     // at which two blocks touch [m]
 };
 
 BodyStart start_of(const btRigidBody& body, double time_step);
@@ -29,7 +30,7 @@ BodyStart start_of(const btRigidBody& body, double time_step);
 ContactRow contact_row(const btManifoldPoint& point, const std::array<const BodyStart*, 2>& bodies, std::array<int, 2> ids,
                        const StepLengths& step);
 
-// The impulse that would undo the overlap of the point by itself, zero if it does not overlap.
+// The impulse that would undo the overlap of the point by itself, or bring it to the clearance; zero if it is further apart.
 double overlap_impulse(const btManifoldPoint& point, const Row& normal, const StepLengths& step);
 
 }  // namespace scree::rigid

@@ -25,6 +25,8 @@ struct SettleOptions {
   double rest_unbalanced_force = 0.05;  // largest accepted unbalanced force [-]
   double rest_displacement = 0.01;      // largest accepted way of any block in a window, over the mean edge [-]
   double rest_window = 0.25;            // all three must hold for this long [s]
+  // Blocks come to rest this far apart [m]: above what is left of overlaps, no two of them overlap. 0: they touch.
+  double clearance = 0;
   // Of the contact solver in each step. Too few, and a stack sways on it: five cubes need 80. A pile of thousands of small
   // blocks does with 20 (README.md).
   int iterations = 80;

@@ -52,7 +52,8 @@ double length_scale(const mesh::BlockMesh<3>& mesh) {
 // (README.md).
 ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& options) {
   const double scale = length_scale(mesh);
-  return {0.01 * scale, 0.008 * scale, 2e-3 * scale, 2 * options.gravity.norm() * options.step, 6e-4 * scale};
+  const double bounce_speed = 2 * options.gravity.norm() * options.step;
+  return {0.01 * scale + options.clearance, 0.008 * scale, 2e-3 * scale, bounce_speed, 6e-4 * scale, options.clearance};
 }
 
 btTransform transform_of(const Pose& pose) {
@@ -99,7 +100,8 @@ struct World::Bullet {
         homes(mesh.blocks.size(), ranges.home),
         dispatcher(configuration, flights, homes),
         world(&dispatcher, &broadphase, nullptr, &configuration),
-        bounce_speed(ranges.bounce_speed) {
+        bounce_speed(ranges.bounce_speed),
+        clearance(ranges.clearance) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;  // added to every bounding box
   }
@@ -112,6 +114,7 @@ struct World::Bullet {
   ContactSolver solver;
   btDiscreteDynamicsWorld world;  // only of its bodies and their pairs; steps are made here
   double bounce_speed;            // [m/s]
+  double clearance;               // [m]
 
   [[nodiscard]] std::span<btPersistentManifold* const> manifolds() {
     return {dispatcher.getInternalManifoldPointer(), static_cast<std::size_t>(dispatcher.getNumManifolds())};
@@ -225,7 +228,8 @@ void World::step(double time_step, int iterations) {
   });
   bullet_->world.getDispatchInfo().m_timeStep = time_step;
   bullet_->world.performDiscreteCollisionDetection();
-  bullet_->solver.solve(free_bodies_, bullet_->manifolds(), {time_step, overlap_undone, bullet_->bounce_speed}, iterations);
+  bullet_->solver.solve(free_bodies_, bullet_->manifolds(),
+                        {time_step, overlap_undone, bullet_->bounce_speed, bullet_->clearance}, iterations);
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       btTransform next;

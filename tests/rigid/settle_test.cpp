@@ -122,6 +122,18 @@ TEST(Settle, ACubeComesToRestOnAPlate) {
   EXPECT_TRUE(report.lost_blocks.empty());
 }
 
+TEST(Settle, BlocksThatKeepAClearanceComeToRestThatFarApartAndDoNotOverlap) {
+  mesh::BlockMesh<3> mesh = plate();
+  for (int i = 0; i < 3; ++i) add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.06 + 0.105 * i}, false);
+  SettleOptions options;
+  options.clearance = 2e-4;
+  const packing::Packing<3> packing = settle(mesh, material(0.6), options);
+  const auto& report = *packing.settled;
+  EXPECT_TRUE(report.at_rest) << report.criterion;
+  EXPECT_NEAR(report.top, 0.3 + 3 * options.clearance, 0.05 * options.clearance);
+  EXPECT_EQ(report.max_penetration, 0);
+}
+
 TEST(Settle, AStackOfCubesStands) {
   mesh::BlockMesh<3> mesh = plate();
   for (int i = 0; i < 5; ++i) add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.06 + 0.105 * i}, false);
@@ -153,24 +165,32 @@ TEST(Settle, ASlidingBlockStopsWhereItsFrictionStopsIt) {
   EXPECT_NEAR(packing.poses[BlockId{1}].translation.x(), distance, 0.02 * distance);
 }
 
+// One block meets another of twice its mass.
+void expect_collision(double restitution, double clearance) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {0.1, 0.1, 0.1}, {-0.2, 0, 0}, false, {1, 0, 0});
+  add_box(mesh, {0.2, 0.1, 0.1}, {0.2, 0, 0}, false);  // twice the mass
+  SettleOptions options = for_time(0.5);
+  options.gravity.setZero();
+  options.clearance = clearance;
+  const auto late = settle(mesh, material(0.5, restitution), options).poses;
+  options.limit = 0.4;
+  const auto early = settle(mesh, material(0.5, restitution), options).poses;
+  const auto speed = [&](BlockId block, double x) {
+    return ((late[block] * Vector3d(x, 0, 0)).x() - (early[block] * Vector3d(x, 0, 0)).x()) / 0.1;
+  };
+  const double v1 = speed(BlockId{0}, -0.2);
+  const double v2 = speed(BlockId{1}, 0.2);
+  EXPECT_NEAR(v1 + 2 * v2, 1, 1e-9);
+  EXPECT_NEAR(v2 - v1, restitution, 1e-3);  // four points share the blow; the solver ends before they agree
+}
+
 TEST(Settle, ACollisionKeepsMomentumAndEnergyAsRestitutionSays) {
-  for (const double restitution : {0.0, 0.5, 1.0}) {
-    mesh::BlockMesh<3> mesh;
-    add_box(mesh, {0.1, 0.1, 0.1}, {-0.2, 0, 0}, false, {1, 0, 0});
-    add_box(mesh, {0.2, 0.1, 0.1}, {0.2, 0, 0}, false);  // twice the mass
-    SettleOptions options = for_time(0.5);
-    options.gravity.setZero();
-    const auto late = settle(mesh, material(0.5, restitution), options).poses;
-    options.limit = 0.4;
-    const auto early = settle(mesh, material(0.5, restitution), options).poses;
-    const auto speed = [&](BlockId block, double x) {
-      return ((late[block] * Vector3d(x, 0, 0)).x() - (early[block] * Vector3d(x, 0, 0)).x()) / 0.1;
-    };
-    const double v1 = speed(BlockId{0}, -0.2);
-    const double v2 = speed(BlockId{1}, 0.2);
-    EXPECT_NEAR(v1 + 2 * v2, 1, 1e-9);
-    EXPECT_NEAR(v2 - v1, restitution, 1e-3);  // four points share the blow; the solver ends before they agree
-  }
+  for (const double restitution : {0.0, 0.5, 1.0}) expect_collision(restitution, 0);
+}
+
+TEST(Settle, ACollisionAcrossAClearanceIsTheSame) {
+  for (const double restitution : {0.0, 0.5, 1.0}) expect_collision(restitution, 1e-3);
 }
 
 TEST(Settle, ABlockAtRestIsPushedAwayByOneThatComesLaterFastOrSlow) {

@@ -119,6 +119,7 @@ std::vector<Change> world_changes() {
           {"settle.viscous_damping", {}, "settle.viscous_damping=1"},
           {"settle.release_time", {}, "settle.release_time=1"},
           {"settle.rest_displacement", {}, "settle.rest_displacement=1"},
+          {"settle.clearance", {}, "settle.clearance=1e-4"},
           {"settle.iterations", {}, "settle.iterations=1"},
           {"settle.rest_speed", {}, "settle.rest_speed=1"},
           {"settle.rest_unbalanced_force", {}, "settle.rest_unbalanced_force=1"},

@@ -94,8 +94,8 @@ std::string text_of(const thermal::Radiation& c) {
 }
 
 std::string text_of(const rigid::SettleOptions& o) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", text_of(o.gravity), o.limit, o.step, o.local_damping,
-                     o.viscous_damping, o.release_time, o.rest_displacement, o.iterations, o.rest_speed,
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", text_of(o.gravity), o.limit, o.step, o.local_damping,
+                     o.viscous_damping, o.release_time, o.rest_displacement, o.clearance, o.iterations, o.rest_speed,
                      o.rest_unbalanced_force, o.rest_window, o.frame_interval);
 }
 

@@ -46,6 +46,14 @@ TEST(StackOfCubes, Stands) {
   EXPECT_TRUE(certificate["porosity"].is_null());
 }
 
+TEST(StackOfCubes, StandsWithoutAnyOverlapWhereAClearanceIsKept) {
+  const SceneRun run = test::run("stack_of_cubes", fresh_directory("stack_apart"), {"settle.clearance=0.1 mm"});
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_NEAR(run.summary["settle"]["top"], 0.5 + 5e-4, 2e-5);
+  EXPECT_EQ(run.summary["settle"]["max_penetration"], 0);
+  EXPECT_EQ(run.summary["settle"]["certificate"]["contacts"]["face_face"], 5);
+}
+
 TEST(SlidingBlock, StopsWhereFrictionHasEatenItsEnergy) {
   const SceneRun run = test::run("sliding_block", fresh_directory("sliding_block"));
   EXPECT_EQ(run.exit_status, 0);

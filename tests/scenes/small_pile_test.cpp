@@ -110,6 +110,15 @@ TEST_F(SmallPile, SettlesAnewWhenTheFrictionChanges) {
   EXPECT_NE(again.summary["settle"]["packing_key"], run_->summary["settle"]["packing_key"]);
 }
 
+TEST_F(SmallPile, RefusesAClearanceAcrossWhichNoHeatWouldBeLookedFor) {
+  const auto directory = fresh_directory("small_pile_apart");
+  const SceneRun apart = test::run("small_pile", directory, {"settle.clearance=1 mm"});
+  EXPECT_EQ(apart.exit_status, 2);
+  EXPECT_EQ(apart.summary["status"], "bad_input");
+  EXPECT_NE(apart.summary["reasons"][0].get<std::string>().find("settle.clearance"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(directory / "settle.pvd"));
+}
+
 TEST_F(SmallPile, CanStartFromAPackingFile) {
   const SceneRun again = test::run("small_pile_reheated", fresh_directory("small_pile_from_file"),
                                    {"packing=" + (run_->directory / "packing.h5").string()});

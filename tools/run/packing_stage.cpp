@@ -1,5 +1,8 @@
 #include "tools/run/packing_stage.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "engine/mesh/make_blocks.h"
@@ -40,6 +43,26 @@ void adopt_scene_bodies(const Scene& scene, packing::Packing<dim>& packing) {
   }
 }
 
+// Heat is looked for across gaps of contact.tolerance times the length of an element at a surface: blocks held further apart
+// would not feel each other.
+void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
+  const double clearance = scene.settle->options.clearance;
+  if (clearance == 0 || !scene.contact) return;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& face : mesh::boundary_faces(blocks))
+    shortest = std::min(shortest, mesh::element_mean_edge(blocks, face.element));
+  const double most = 0.5 * scene.contact->tolerance * shortest;
+  if (clearance <= most) return;
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = "settle.clearance";
+  problem.value = fmt::format("{:g} m", clearance);
+  problem.rule =
+      fmt::format("must be at most {:.3g} m, half of the gap across which contacts are found at the smallest elements", most);
+  problem.suggestion = "Lower it, or raise contact.tolerance";
+  throw InputError(problem);
+}
+
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   const SettleStage& stage = *context.scene.settle;
   output::Series series(context.files.directory, "settle");
@@ -59,6 +82,7 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
     return {packing::read<3>(context.files.packing()), true};
   }
+  check_clearance(context.scene, blocks);
   auto packing =
       context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
   return {std::move(packing), false};

@@ -210,6 +210,9 @@ Keys settle_keys() {
           .fallback(fmt::format("{}", by_default.rest_displacement)),
       row("settle.rest_window", quantity, "All three must hold for this long.", q::time, positive)
           .fallback(with_unit(by_default.rest_window, "s")),
+      row("settle.clearance", quantity, "Blocks come to rest this far apart, so that no two overlap; 0: they touch.", q::length,
+          not_negative)
+          .fallback(with_unit(by_default.clearance, "m")),
       row("settle.iterations", integer, "Iterations of the contact solver in each step.")
           .range(Range{.low = 1, .high = 10000})
           .fallback(fmt::format("{}", by_default.iterations)),

@@ -17,6 +17,7 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.rest_unbalanced_force = settle.at("rest_unbalanced_force").number();
   options.rest_displacement = settle.at("rest_displacement").number();
   options.rest_window = settle.at("rest_window").number();
+  options.clearance = settle.at("clearance").number();
   options.iterations = settle.at("iterations").integer();
   options.frame_interval = settle.at("frame_interval").number();
   stage.seed = settle.at("seed").integer();
