@@ -1,5 +1,6 @@
 // Factorisations of sparse matrices by CHOLMOD and UMFPACK, in a library of their own (libscree_factor.so) that is loaded by
-// the first of them: with BLAS and LAPACK behind it, it takes as long to load as a small run that needs none takes in all.
+// the first of them: with BLAS and LAPACK behind it, it takes as long to load as a small run that needs none takes in all. What
+// CHOLMOD has factorised is solved with here (supernodal_solve.h).
 #pragma once
 
 #include <memory>
@@ -8,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include "thermal/solver_cost.h"
+#include "thermal/supernodal_solve.h"
 
 namespace scree::thermal {
 
@@ -41,6 +43,28 @@ std::unique_ptr<DirectFactor> make_lu();
 
 }  // namespace scree::thermal
 
+namespace scree::thermal {
+
+// CHOLMOD's part of it, likewise.
+class CholeskyFactor {
+ public:
+  using Matrix = DirectFactor::Matrix;
+
+  virtual ~CholeskyFactor() = default;
+  virtual FactorSize analyse(const Matrix& matrix) = 0;
+  virtual void factorise(const Matrix& matrix) = 0;
+  [[nodiscard]] virtual bool sound() const = 0;
+  // After factorise(), until the next.
+  [[nodiscard]] virtual SupernodalFactor factor() const = 0;
+
+ protected:
+  CholeskyFactor() = default;
+  CholeskyFactor(const CholeskyFactor&) = delete;
+  CholeskyFactor& operator=(const CholeskyFactor&) = delete;
+};
+
+}  // namespace scree::thermal
+
 // What the library exports; the caller owns what they return.
-extern "C" scree::thermal::DirectFactor* scree_make_cholesky();
+extern "C" scree::thermal::CholeskyFactor* scree_make_cholesky();
 extern "C" scree::thermal::DirectFactor* scree_make_lu();

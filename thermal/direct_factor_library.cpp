@@ -1,4 +1,5 @@
 #include <dlfcn.h>
+#include <omp.h>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
@@ -17,26 +18,54 @@ void use_one_blas_thread() {
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
 }
 
-class Cholesky : public DirectFactor {
+// CHOLMOD has loops of its own on four threads, however many are asked for, which spin on two processors and gain nothing.
+class OneOpenMpThread {
  public:
-  Cholesky() {
+  OneOpenMpThread() { omp_set_max_active_levels(0); }
+  ~OneOpenMpThread() { omp_set_max_active_levels(levels_); }
+  OneOpenMpThread(const OneOpenMpThread&) = delete;
+  OneOpenMpThread& operator=(const OneOpenMpThread&) = delete;
+
+ private:
+  int levels_ = omp_get_max_active_levels();
+};
+
+// Eigen's interface to CHOLMOD keeps the factor to itself and to what is made of it.
+class Supernodes : public Eigen::CholmodSupernodalLLT<DirectFactor::Matrix, Eigen::Lower> {
+ public:
+  [[nodiscard]] const cholmod_factor& factor() const { return *m_cholmodFactor; }
+};
+
+class Cholmod : public CholeskyFactor {
+ public:
+  Cholmod() {
     use_one_blas_thread();
     cholesky_.cholmod().print = 0;  // failures are ours to report
   }
-  void factorise(const Matrix& matrix) override {
-    if (!analysed_) analyse(matrix);
-    cholesky_.factorize(matrix);
-  }
   FactorSize analyse(const Matrix& matrix) override {
     cholesky_.analyzePattern(matrix);
-    analysed_ = true;
     return {cholesky_.cholmod().lnz, cholesky_.cholmod().fl, cholesky_.cholmod().status == CHOLMOD_OK};
   }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return cholesky_.solve(rhs); }
+  void factorise(const Matrix& matrix) override {
+    const OneOpenMpThread alone;
+    cholesky_.factorize(matrix);
+  }
   [[nodiscard]] bool sound() const override { return cholesky_.info() == Eigen::Success; }
+  [[nodiscard]] SupernodalFactor factor() const override {
+    const cholmod_factor& factor = cholesky_.factor();
+    const auto integers = [](const void* array) { return static_cast<const int*>(array); };
+    return {static_cast<int>(factor.n),
+            static_cast<int>(factor.nsuper),
+            integers(factor.super),
+            integers(factor.pi),
+            integers(factor.s),
+            integers(factor.px),
+            static_cast<const double*>(factor.x),
+            integers(factor.Perm)};
+  }
 
  private:
-  Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower> cholesky_;
+  Supernodes cholesky_;
 };
 
 class Lu : public DirectFactor {
@@ -64,8 +93,8 @@ class Lu : public DirectFactor {
 
 }  // namespace scree::thermal
 
-scree::thermal::DirectFactor* scree_make_cholesky() {
-  return new scree::thermal::Cholesky;
+scree::thermal::CholeskyFactor* scree_make_cholesky() {
+  return new scree::thermal::Cholmod;
 }
 
 scree::thermal::DirectFactor* scree_make_lu() {

@@ -1,0 +1,196 @@
+#include "thermal/supernodal_solve.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <queue>
+
+#include "engine/base/phases.h"
+#include "thermal/supernode_kernels.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Trees are cut until each holds at most this part of the factor. What is above them is solved by one thread.
+constexpr std::int64_t parts = 4;
+// Factors with fewer entries are done before a second thread has woken up.
+constexpr std::int64_t entries_worth_sharing = 200'000;
+
+SCREE_WIDE void forward_single(const Supernode& node, double* w) {
+  forward_in<1>(node, w);
+}
+SCREE_WIDE void forward_twin(const Supernode& node, double* w) {
+  forward_in<2>(node, w);
+}
+SCREE_WIDE void backward_single(const Supernode& node, double* w) {
+  backward_in<1>(node, w);
+}
+SCREE_WIDE void backward_twin(const Supernode& node, double* w) {
+  backward_in<2>(node, w);
+}
+
+int rows_of(const SupernodalFactor& factor, int supernode) {
+  return factor.rows_begin[supernode + 1] - factor.rows_begin[supernode];
+}
+
+Supernode supernode_of(const SupernodalFactor& factor, int s) {
+  return {factor.values + factor.values_begin[s], rows_of(factor, s), factor.first[s + 1] - factor.first[s]};
+}
+
+// -1: a root.
+std::vector<int> parents_of(const SupernodalFactor& factor) {
+  std::vector<int> holder(factor.unknowns);  // the supernode of each column
+  for (int s = 0; s < factor.supernodes; ++s)
+    std::fill(holder.begin() + factor.first[s], holder.begin() + factor.first[s + 1], s);
+  std::vector<int> parents(factor.supernodes, -1);
+  for (int s = 0; s < factor.supernodes; ++s) {
+    const int columns = factor.first[s + 1] - factor.first[s];
+    if (rows_of(factor, s) > columns) parents[s] = holder[factor.rows[factor.rows_begin[s] + columns]];
+  }
+  return parents;
+}
+
+// Of the tree below each supernode, itself included. Parents come after what is below them.
+std::vector<std::int64_t> entries_below(const SupernodalFactor& factor, const std::vector<int>& parents) {
+  std::vector<std::int64_t> entries(factor.supernodes);
+  for (int s = 0; s < factor.supernodes; ++s) {
+    entries[s] += static_cast<std::int64_t>(rows_of(factor, s)) * (factor.first[s + 1] - factor.first[s]);
+    if (parents[s] >= 0) entries[parents[s]] += entries[s];
+  }
+  return entries;
+}
+
+}  // namespace
+
+SupernodalSolve::SupernodalSolve(const SupernodalFactor& factor) : factor_(factor) {
+  const std::vector<int> parents = parents_of(factor);
+  cut(parents, entries_below(factor, parents));
+  find_rows_above();
+}
+
+void SupernodalSolve::cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries) {
+  const int count = factor_.supernodes;
+  std::vector<std::vector<int>> children(count + 1);  // the last: roots
+  for (int s = 0; s < count; ++s) children[parents[s] < 0 ? count : parents[s]].push_back(s);
+  std::int64_t all = 0;
+  for (const int root : children[count]) all += entries[root];
+  const std::int64_t largest = std::max(all / parts, entries_worth_sharing);
+
+  // Which task a supernode belongs to: parents first.
+  constexpr int in_top = -1;
+  std::vector<int> task(count + 1, in_top);
+  for (int s = count - 1; s >= 0; --s) {
+    const int above = parents[s] < 0 ? in_top : task[parents[s]];
+    if (above != in_top) {
+      task[s] = above;
+    } else if (entries[s] <= largest) {
+      // Small trees go together.
+      if (tasks_.empty() || tasks_.back().entries + entries[s] > largest) tasks_.emplace_back();
+      tasks_.back().entries += entries[s];
+      task[s] = static_cast<int>(tasks_.size()) - 1;
+    }
+  }
+  for (int s = 0; s < count; ++s) (task[s] == in_top ? top_ : tasks_[task[s]]).supernodes.push_back(s);
+  std::stable_sort(tasks_.begin(), tasks_.end(), [](const Task& a, const Task& b) { return a.entries > b.entries; });
+}
+
+void SupernodalSolve::find_rows_above() {
+  top_place_.assign(factor_.unknowns, -1);
+  for (const int s : top_.supernodes) {
+    for (int row = factor_.first[s]; row < factor_.first[s + 1]; ++row) {
+      top_place_[row] = static_cast<int>(top_rows_.size());
+      top_rows_.push_back(row);
+    }
+  }
+  rows_below_.resize(factor_.supernodes);
+  for (int s = 0; s < factor_.supernodes; ++s) {
+    const int* begin = factor_.rows + factor_.rows_begin[s];
+    const int* end = factor_.rows + factor_.rows_begin[s + 1];
+    most_rows_ = std::max(most_rows_, static_cast<std::size_t>(end - begin));
+    const bool top = top_place_[factor_.first[s]] >= 0;
+    rows_below_[s] =
+        static_cast<int>((top ? end : std::find_if(begin, end, [&](int row) { return top_place_[row] >= 0; })) - begin);
+  }
+}
+
+template <int sides>
+void SupernodalSolve::forward(const Task& task, double* x, double* above) const {
+  std::vector<double> w(sides * most_rows_);
+  for (const int s : task.supernodes) {
+    const Supernode node = supernode_of(factor_, s);
+    const int* rows = factor_.rows + factor_.rows_begin[s];
+    for (int c = 0; c < sides; ++c) {
+      double* side = w.data() + c * node.rows;
+      for (int i = 0; i < node.columns; ++i) side[i] = x[sides * rows[i] + c];
+      std::fill(side + node.columns, side + node.rows, 0.0);
+    }
+    sides == 1 ? forward_single(node, w.data()) : forward_twin(node, w.data());
+    for (int c = 0; c < sides; ++c) {
+      const double* side = w.data() + c * node.rows;
+      for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = side[i];
+      for (int i = node.columns; i < rows_below_[s]; ++i) x[sides * rows[i] + c] += side[i];
+      for (int i = rows_below_[s]; i < node.rows; ++i) above[sides * top_place_[rows[i]] + c] += side[i];
+    }
+  }
+}
+
+template <int sides>
+void SupernodalSolve::backward(const Task& task, double* x) const {
+  std::vector<double> w(sides * most_rows_);
+  for (auto s = task.supernodes.rbegin(); s != task.supernodes.rend(); ++s) {
+    const Supernode node = supernode_of(factor_, *s);
+    const int* rows = factor_.rows + factor_.rows_begin[*s];
+    for (int c = 0; c < sides; ++c) {
+      for (int i = 0; i < node.rows; ++i) w[c * node.rows + i] = x[sides * rows[i] + c];
+    }
+    sides == 1 ? backward_single(node, w.data()) : backward_twin(node, w.data());
+    for (int c = 0; c < sides; ++c) {
+      for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = w[c * node.rows + i];
+    }
+  }
+}
+
+template <int sides>
+void SupernodalSolve::solve(const double* rhs, double* solution) const {
+  const int n = factor_.unknowns;
+  const int tasks = static_cast<int>(tasks_.size());
+  std::vector<double> x(static_cast<std::size_t>(sides) * n);
+  for (int c = 0; c < sides; ++c) {
+    for (int i = 0; i < n; ++i) x[sides * i + c] = rhs[static_cast<std::ptrdiff_t>(c) * n + factor_.permutation[i]];
+  }
+  std::vector<std::vector<double>> above(tasks_.size());
+  const auto meet = [&] {
+    for (const auto& part : above) {
+      for (std::size_t i = 0; i < top_rows_.size(); ++i) {
+        for (int c = 0; c < sides; ++c) x[sides * top_rows_[i] + c] += part[sides * i + c];
+      }
+    }
+    forward<sides>(top_, x.data(), nullptr);
+    backward<sides>(top_, x.data());
+  };
+  enum Phase { up, turn, down };
+  run_phases(std::array<int, 3>{tasks, 1, tasks}, 1, [&](int phase, int task) {
+    if (phase == up) {
+      above[task].assign(sides * top_rows_.size(), 0.0);
+      forward<sides>(tasks_[task], x.data(), above[task].data());
+    } else if (phase == turn) {
+      meet();
+    } else {
+      backward<sides>(tasks_[task], x.data());
+    }
+  });
+  for (int c = 0; c < sides; ++c) {
+    for (int i = 0; i < n; ++i) solution[static_cast<std::ptrdiff_t>(c) * n + factor_.permutation[i]] = x[sides * i + c];
+  }
+}
+
+Eigen::MatrixXd SupernodalSolve::solve(const Eigen::MatrixXd& rhs) const {
+  Eigen::MatrixXd solution(rhs.rows(), rhs.cols());
+  Eigen::Index column = 0;
+  for (; column + 2 <= rhs.cols(); column += 2) solve<2>(rhs.col(column).data(), solution.col(column).data());
+  if (column < rhs.cols()) solve<1>(rhs.col(column).data(), solution.col(column).data());
+  return solution;
+}
+
+}  // namespace scree::thermal

@@ -1,0 +1,63 @@
+// Solves L L^T x = b with a supernodal Cholesky factor on all threads. CHOLMOD's own solve goes through L twice on one of them,
+// and in runs of hundreds of steps with a dozen matrices that is where the time goes.
+//
+// A supernode is a run of columns of L with the same rows, and its parent the one that holds the first of its rows below them.
+// Different subtrees of that forest have nothing to do with each other until they meet: they are solved at once, and what they
+// give to the rows above is added in their order. How the forest is cut depends on the factor alone, so any number of threads
+// gives the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scree::thermal {
+
+// As CHOLMOD keeps it (cholmod_core.h): supernode s has the columns first[s] to first[s + 1] and the rows from rows_begin[s] on
+// to rows_begin[s + 1], which begin with those of its columns and ascend; its values, column by column, start at
+// values_begin[s]. Row and column i stand for unknown permutation[i].
+struct SupernodalFactor {
+  int unknowns = 0;
+  int supernodes = 0;
+  const int* first = nullptr;
+  const int* rows_begin = nullptr;
+  const int* rows = nullptr;
+  const int* values_begin = nullptr;
+  const double* values = nullptr;
+  const int* permutation = nullptr;
+};
+
+class SupernodalSolve {
+ public:
+  // Refers to the factor's arrays. Looks at its pattern only.
+  explicit SupernodalSolve(const SupernodalFactor& factor);
+
+  // Each column of `rhs` to its solution.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
+
+ private:
+  struct Task {
+    std::vector<int> supernodes;  // ascending: each after those below it
+    std::int64_t entries = 0;
+  };
+  void cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries);
+  void find_rows_above();
+  template <int columns>
+  void solve(const double* rhs, double* solution) const;
+  template <int columns>
+  void forward(const Task& task, double* x, double* above) const;
+  template <int columns>
+  void backward(const Task& task, double* x) const;
+
+  SupernodalFactor factor_;
+  std::vector<Task> tasks_;      // trees that are solved at once, the largest first
+  Task top_;                     // what is above them
+  std::vector<int> rows_below_;  // of each supernode, how many of its rows are not in the top, or all if it is
+  std::vector<int> top_rows_;    // the rows of the top
+  std::vector<int> top_place_;   // of each row, where it is among them
+  std::size_t most_rows_ = 0;    // of a supernode
+};
+
+}  // namespace scree::thermal
