@@ -1,42 +1,18 @@
 #include "thermal/supernodal_solve.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <queue>
 
 #include "engine/base/phases.h"
-#include "thermal/supernode_kernels.h"
 
 namespace scree::thermal {
 
 namespace {
 
-// Trees are cut until each holds at most this part of the factor. What is above them is solved by one thread.
+// Trees are cut until each holds at most this part of the factor. What is above them is shared less well.
 constexpr std::int64_t parts = 4;
 // Factors with fewer entries are done before a second thread has woken up.
 constexpr std::int64_t entries_worth_sharing = 200'000;
-
-SCREE_WIDE void forward_single(const Supernode& node, double* w) {
-  forward_in<1>(node, w);
-}
-SCREE_WIDE void forward_twin(const Supernode& node, double* w) {
-  forward_in<2>(node, w);
-}
-SCREE_WIDE void backward_single(const Supernode& node, double* w) {
-  backward_in<1>(node, w);
-}
-SCREE_WIDE void backward_twin(const Supernode& node, double* w) {
-  backward_in<2>(node, w);
-}
-
-int rows_of(const SupernodalFactor& factor, int supernode) {
-  return factor.rows_begin[supernode + 1] - factor.rows_begin[supernode];
-}
-
-Supernode supernode_of(const SupernodalFactor& factor, int s) {
-  return {factor.values + factor.values_begin[s], rows_of(factor, s), factor.first[s + 1] - factor.first[s]};
-}
 
 // -1: a root.
 std::vector<int> parents_of(const SupernodalFactor& factor) {
@@ -46,7 +22,7 @@ std::vector<int> parents_of(const SupernodalFactor& factor) {
   std::vector<int> parents(factor.supernodes, -1);
   for (int s = 0; s < factor.supernodes; ++s) {
     const int columns = factor.first[s + 1] - factor.first[s];
-    if (rows_of(factor, s) > columns) parents[s] = holder[factor.rows[factor.rows_begin[s] + columns]];
+    if (factor.rows_of(s) > columns) parents[s] = holder[factor.rows[factor.rows_begin[s] + columns]];
   }
   return parents;
 }
@@ -55,7 +31,7 @@ std::vector<int> parents_of(const SupernodalFactor& factor) {
 std::vector<std::int64_t> entries_below(const SupernodalFactor& factor, const std::vector<int>& parents) {
   std::vector<std::int64_t> entries(factor.supernodes);
   for (int s = 0; s < factor.supernodes; ++s) {
-    entries[s] += static_cast<std::int64_t>(rows_of(factor, s)) * (factor.first[s + 1] - factor.first[s]);
+    entries[s] += static_cast<std::int64_t>(factor.rows_of(s)) * (factor.first[s + 1] - factor.first[s]);
     if (parents[s] >= 0) entries[parents[s]] += entries[s];
   }
   return entries;
@@ -66,7 +42,6 @@ std::vector<std::int64_t> entries_below(const SupernodalFactor& factor, const st
 SupernodalSolve::SupernodalSolve(const SupernodalFactor& factor) : factor_(factor) {
   const std::vector<int> parents = parents_of(factor);
   cut(parents, entries_below(factor, parents));
-  find_rows_above();
 }
 
 void SupernodalSolve::cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries) {
@@ -91,13 +66,21 @@ void SupernodalSolve::cut(const std::vector<int>& parents, const std::vector<std
       task[s] = static_cast<int>(tasks_.size()) - 1;
     }
   }
-  for (int s = 0; s < count; ++s) (task[s] == in_top ? top_ : tasks_[task[s]]).supernodes.push_back(s);
+  std::vector<int> top;
+  for (int s = 0; s < count; ++s) (task[s] == in_top ? top : tasks_[task[s]].supernodes).push_back(s);
   std::stable_sort(tasks_.begin(), tasks_.end(), [](const Task& a, const Task& b) { return a.entries > b.entries; });
+  top_.set(factor_, top);
+  // Up the trees, where they meet, the top, down the trees.
+  const auto trees = static_cast<int>(tasks_.size());
+  sizes_ = {trees, 1};
+  sizes_.insert(sizes_.end(), top_.sizes().begin(), top_.sizes().end());
+  sizes_.push_back(trees);
+  find_rows_above(top);
 }
 
-void SupernodalSolve::find_rows_above() {
+void SupernodalSolve::find_rows_above(const std::vector<int>& top) {
   top_place_.assign(factor_.unknowns, -1);
-  for (const int s : top_.supernodes) {
+  for (const int s : top) {
     for (int row = factor_.first[s]; row < factor_.first[s + 1]; ++row) {
       top_place_[row] = static_cast<int>(top_rows_.size());
       top_rows_.push_back(row);
@@ -108,9 +91,7 @@ void SupernodalSolve::find_rows_above() {
     const int* begin = factor_.rows + factor_.rows_begin[s];
     const int* end = factor_.rows + factor_.rows_begin[s + 1];
     most_rows_ = std::max(most_rows_, static_cast<std::size_t>(end - begin));
-    const bool top = top_place_[factor_.first[s]] >= 0;
-    rows_below_[s] =
-        static_cast<int>((top ? end : std::find_if(begin, end, [&](int row) { return top_place_[row] >= 0; })) - begin);
+    rows_below_[s] = static_cast<int>(std::find_if(begin, end, [&](int row) { return top_place_[row] >= 0; }) - begin);
   }
 }
 
@@ -118,14 +99,14 @@ template <int sides>
 void SupernodalSolve::forward(const Task& task, double* x, double* above) const {
   std::vector<double> w(sides * most_rows_);
   for (const int s : task.supernodes) {
-    const Supernode node = supernode_of(factor_, s);
+    const Supernode node = factor_.supernode(s);
     const int* rows = factor_.rows + factor_.rows_begin[s];
     for (int c = 0; c < sides; ++c) {
       double* side = w.data() + c * node.rows;
       for (int i = 0; i < node.columns; ++i) side[i] = x[sides * rows[i] + c];
       std::fill(side + node.columns, side + node.rows, 0.0);
     }
-    sides == 1 ? forward_single(node, w.data()) : forward_twin(node, w.data());
+    thermal::forward<sides>(node, {0, node.columns}, node.rows, w.data());
     for (int c = 0; c < sides; ++c) {
       const double* side = w.data() + c * node.rows;
       for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = side[i];
@@ -139,12 +120,12 @@ template <int sides>
 void SupernodalSolve::backward(const Task& task, double* x) const {
   std::vector<double> w(sides * most_rows_);
   for (auto s = task.supernodes.rbegin(); s != task.supernodes.rend(); ++s) {
-    const Supernode node = supernode_of(factor_, *s);
+    const Supernode node = factor_.supernode(*s);
     const int* rows = factor_.rows + factor_.rows_begin[*s];
     for (int c = 0; c < sides; ++c) {
       for (int i = 0; i < node.rows; ++i) w[c * node.rows + i] = x[sides * rows[i] + c];
     }
-    sides == 1 ? backward_single(node, w.data()) : backward_twin(node, w.data());
+    thermal::backward<sides>(node, {0, node.columns}, node.rows, w.data());
     for (int c = 0; c < sides; ++c) {
       for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = w[c * node.rows + i];
     }
@@ -154,32 +135,32 @@ void SupernodalSolve::backward(const Task& task, double* x) const {
 template <int sides>
 void SupernodalSolve::solve(const double* rhs, double* solution) const {
   const int n = factor_.unknowns;
-  const int tasks = static_cast<int>(tasks_.size());
   std::vector<double> x(static_cast<std::size_t>(sides) * n);
   for (int c = 0; c < sides; ++c) {
     for (int i = 0; i < n; ++i) x[sides * i + c] = rhs[static_cast<std::ptrdiff_t>(c) * n + factor_.permutation[i]];
   }
   std::vector<std::vector<double>> above(tasks_.size());
+  TopSupernodes::Space space = top_.space<sides>();
   const auto meet = [&] {
     for (const auto& part : above) {
       for (std::size_t i = 0; i < top_rows_.size(); ++i) {
         for (int c = 0; c < sides; ++c) x[sides * top_rows_[i] + c] += part[sides * i + c];
       }
     }
-    forward<sides>(top_, x.data(), nullptr);
-    backward<sides>(top_, x.data());
   };
-  enum Phase { up, turn, down };
-  run_phases(std::array<int, 3>{tasks, 1, tasks}, 1, [&](int phase, int task) {
-    if (phase == up) {
+  const auto work = [&](int phase, int task) {
+    if (phase == 0) {
       above[task].assign(sides * top_rows_.size(), 0.0);
       forward<sides>(tasks_[task], x.data(), above[task].data());
-    } else if (phase == turn) {
+    } else if (phase == 1) {
       meet();
+    } else if (phase + 1 < static_cast<int>(sizes_.size())) {
+      top_.run<sides>(phase - 2, task, x.data(), space);
     } else {
       backward<sides>(tasks_[task], x.data());
     }
-  });
+  };
+  run_phases(sizes_, 1, work);
   for (int c = 0; c < sides; ++c) {
     for (int i = 0; i < n; ++i) solution[static_cast<std::ptrdiff_t>(c) * n + factor_.permutation[i]] = x[sides * i + c];
   }

@@ -13,21 +13,9 @@
 
 #include <Eigen/Core>
 
-namespace scree::thermal {
+#include "thermal/top_supernodes.h"
 
-// As CHOLMOD keeps it (cholmod_core.h): supernode s has the columns first[s] to first[s + 1] and the rows from rows_begin[s] on
-// to rows_begin[s + 1], which begin with those of its columns and ascend; its values, column by column, start at
-// values_begin[s]. Row and column i stand for unknown permutation[i].
-struct SupernodalFactor {
-  int unknowns = 0;
-  int supernodes = 0;
-  const int* first = nullptr;
-  const int* rows_begin = nullptr;
-  const int* rows = nullptr;
-  const int* values_begin = nullptr;
-  const double* values = nullptr;
-  const int* permutation = nullptr;
-};
+namespace scree::thermal {
 
 class SupernodalSolve {
  public:
@@ -43,7 +31,7 @@ class SupernodalSolve {
     std::int64_t entries = 0;
   };
   void cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries);
-  void find_rows_above();
+  void find_rows_above(const std::vector<int>& top);
   template <int columns>
   void solve(const double* rhs, double* solution) const;
   template <int columns>
@@ -53,10 +41,11 @@ class SupernodalSolve {
 
   SupernodalFactor factor_;
   std::vector<Task> tasks_;      // trees that are solved at once, the largest first
-  Task top_;                     // what is above them
-  std::vector<int> rows_below_;  // of each supernode, how many of its rows are not in the top, or all if it is
+  TopSupernodes top_;            // what is above them
+  std::vector<int> rows_below_;  // of each supernode, how many of its rows are not in the top
   std::vector<int> top_rows_;    // the rows of the top
   std::vector<int> top_place_;   // of each row, where it is among them
+  std::vector<int> sizes_;       // tasks of each phase
   std::size_t most_rows_ = 0;    // of a supernode
 };
 

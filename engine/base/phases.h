@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "engine/base/chunks.h"
 
@@ -27,10 +28,10 @@ void run_phases(const PhasedWork& work);
 
 // Calls body(phase, number) for sizes[phase] tasks of each phase, on all threads, and that `rounds` times over. The body must
 // not throw.
-template <std::size_t Phases, class Body>
-void run_phases(const std::array<int, Phases>& sizes, int rounds, const Body& body) {
+template <class Body>
+void run_phases(std::span<const int> sizes, int rounds, const Body& body) {
   const auto task = [](const void* any, int phase, int number) { (*static_cast<const Body*>(any))(phase, number); };
-  run_phases({sizes.data(), static_cast<int>(Phases), rounds, task, &body});
+  run_phases({sizes.data(), static_cast<int>(sizes.size()), rounds, task, &body});
 }
 
 // for_chunks (chunks.h) for loops that are short.
