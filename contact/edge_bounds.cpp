@@ -113,11 +113,11 @@ EdgeBounds::EdgeBounds(const Shell<3>& first, const Shell<3>& second, double ind
     const Lanes at = unit * first.at[axis];
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       // The face beside vertex i has the other one as its third corner.
-      const Lanes start = __builtin_shuffle(at, edge_lanes[g].start), way_of = __builtin_shuffle(at, edge_lanes[g].end) - start;
+      const Lanes start = shuffled(at, edge_lanes[g].start), way_of = shuffled(at, edge_lanes[g].end) - start;
       groups_[g].starts[axis] = start;
       groups_[g].ways[axis] = way_of;
-      groups_[g].shifts[0][axis] = moved_ * (way_of + __builtin_shuffle(at, edge_lanes[g].beside[1]) - start);
-      groups_[g].shifts[1][axis] = moved_ * (way_of + __builtin_shuffle(at, edge_lanes[g].beside[0]) - start);
+      groups_[g].shifts[0][axis] = moved_ * (way_of + shuffled(at, edge_lanes[g].beside[1]) - start);
+      groups_[g].shifts[1][axis] = moved_ * (way_of + shuffled(at, edge_lanes[g].beside[0]) - start);
     }
   }
   for (Group& group : groups_) {

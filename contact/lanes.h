@@ -52,11 +52,19 @@ Lanes dot(const LanePoints<dim>& a, const LanePoints<dim>& b) {
 
 // Rows to columns.
 inline std::array<Lanes, 4> transposed(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
-  const Lanes low_ab = __builtin_shuffle(a, b, LaneMask{0, 4, 1, 5}), high_ab = __builtin_shuffle(a, b, LaneMask{2, 6, 3, 7});
-  const Lanes low_cd = __builtin_shuffle(c, d, LaneMask{0, 4, 1, 5}), high_cd = __builtin_shuffle(c, d, LaneMask{2, 6, 3, 7});
-  constexpr LaneMask lower{0, 1, 4, 5}, upper{2, 3, 6, 7};
-  return {__builtin_shuffle(low_ab, low_cd, lower), __builtin_shuffle(low_ab, low_cd, upper),
-          __builtin_shuffle(high_ab, high_cd, lower), __builtin_shuffle(high_ab, high_cd, upper)};
+  const Lanes low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5), __builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7),
+          __builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5), __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7)};
+}
+
+// Lane i is lane places[i] of a.
+inline Lanes shuffled(const Lanes& a, const LaneMask& places) {
+#ifdef __clang__
+  return Lanes{a[places[0]], a[places[1]], a[places[2]], a[places[3]]};
+#else
+  return __builtin_shuffle(a, places);
+#endif
 }
 
 }  // namespace scree::contact

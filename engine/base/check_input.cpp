@@ -28,11 +28,10 @@ class Checker {
     checked.path = path;
     checked.where = value.where;
     const KeyType type = node.key == nullptr ? KeyType::section : node.key->type;
+    const bool map_of_keys = value.kind == Kind::map && !node.children.empty();
     if (type == KeyType::list) {
       check_list(value, node, checked);
-    } else if (type == KeyType::section || type == KeyType::names) {
-      check_map(value, node, checked);
-    } else if (value.kind == Kind::map && !node.children.empty()) {
+    } else if (type == KeyType::section || type == KeyType::names || map_of_keys) {
       check_map(value, node, checked);
     } else {
       check_value(value, *node.key, dimension_, checked, problems_);

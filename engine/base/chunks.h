@@ -38,7 +38,7 @@ inline std::vector<Chunk> chunks_by_size(const std::vector<std::size_t>& ends, s
 template <class Body>
 void for_chunks(const std::vector<Chunk>& chunks, const Body& body) {
 #pragma omp parallel for schedule(dynamic) if (chunks.size() > 1)
-  for (std::size_t i = 0; i < chunks.size(); ++i) body(chunks[i]);
+  for (const Chunk& chunk : chunks) body(chunk);
 }
 
 // The same for every chunk of [0, count).

@@ -36,7 +36,7 @@ class Tabulated : public Curve::Form {
 
 class Formula : public Curve::Form {
  public:
-  Formula(const std::string& text, UnitConverter unit, ValueRule rule)
+  Formula(const std::string& text, UnitConverter unit, const ValueRule& rule)
       : expression_(text, {"T"}), unit_(std::move(unit)), rule_(std::move(rule)), text_(text) {}
 
   [[nodiscard]] bool varies() const { return expression_.uses("T"); }
@@ -100,7 +100,7 @@ class Formula : public Curve::Form {
 
 }  // namespace
 
-Curve Curve::from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule) {
+Curve Curve::from_expression(const std::string& text, const UnitConverter& unit, const ValueRule& rule) {
   try {
     const auto formula = std::make_shared<Formula>(text, unit, rule);
     if (!formula->varies()) return formula->value(0);

@@ -20,7 +20,7 @@ class Curve {
   Curve(double value) : constant_(value) {}  // NOLINT(google-explicit-constructor): a number is a curve, too
 
   // In T [K]; its value is in `unit`. Throws InputError if it is no formula.
-  static Curve from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule);
+  static Curve from_expression(const std::string& text, const UnitConverter& unit, const ValueRule& rule);
 
   // Over temperature [K], constant beyond the ends. The values are sound already.
   static Curve from_table(LinearTable table);

@@ -92,7 +92,7 @@ class Tabulated : public Function::Form {
 
 }  // namespace
 
-Function Function::from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule) {
+Function Function::from_expression(const std::string& text, const UnitConverter& unit, const ValueRule& rule) {
   Function function;
   try {
     function.form_ = std::make_shared<Formula>(text, unit, rule);
@@ -104,7 +104,7 @@ Function Function::from_expression(const std::string& text, const UnitConverter&
   return function(Eigen::Vector3d::Zero(), 0);
 }
 
-Function Function::from_table(const std::filesystem::path& file, ValueRule rule) {
+Function Function::from_table(const std::filesystem::path& file, const ValueRule& rule) {
   const std::vector<Argument> arguments{
       {"time", quantity::time}, {"x", quantity::length}, {"y", quantity::length}, {"z", quantity::length}};
   Function function;
@@ -112,7 +112,7 @@ Function Function::from_table(const std::filesystem::path& file, ValueRule rule)
   return function;
 }
 
-Function Function::from_table(LinearTable table, ValueRule rule) {
+Function Function::from_table(LinearTable table, const ValueRule& rule) {
   Function function;
   function.form_ = std::make_shared<Tabulated>(ReadTable{"time", std::move(table)}, "", rule);
   return function;

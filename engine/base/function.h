@@ -21,13 +21,13 @@ class Function {
   Function(double value) : constant_(value) {}  // NOLINT(google-explicit-constructor): a number is a function, too
 
   // In x, y, z [m] and t [s]; its value is in `unit`. Throws InputError if it is no formula.
-  static Function from_expression(const std::string& text, const UnitConverter& unit, ValueRule rule);
+  static Function from_expression(const std::string& text, const UnitConverter& unit, const ValueRule& rule);
 
   // Over time, x, y or z, as the head of the file's first column says. Throws InputError.
-  static Function from_table(const std::filesystem::path& file, ValueRule rule);
+  static Function from_table(const std::filesystem::path& file, const ValueRule& rule);
 
   // Over time [s], with values that are sound already.
-  static Function from_table(LinearTable table, ValueRule rule);
+  static Function from_table(LinearTable table, const ValueRule& rule);
 
   // Throws InputError that names place and time where the value breaks the rule or the table ends.
   double operator()(const Eigen::Vector3d& place, double time) const;

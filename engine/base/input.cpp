@@ -100,7 +100,11 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
   if (documents.size() > 1) {
     refuse(location(name, documents[1].Mark()), "more than one YAML document", "", "Keep the part before the line ---");
   }
-  if (documents.empty()) return InputValue{.where = {name, 1, 1}};
+  if (documents.empty()) {
+    InputValue nothing;
+    nothing.where = {name, 1, 1};
+    return nothing;
+  }
   Converter converter(name);
   InputValue root = converter.convert(documents.front(), {name, 1, 1}, 0);
   if (!converter.problems.empty()) throw InputError(std::move(converter.problems));

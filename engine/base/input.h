@@ -15,9 +15,9 @@ struct InputValue {
   enum class Kind { empty, scalar, list, map };
   Kind kind = Kind::empty;
   SourceLocation where;
-  std::string text = {};                 // of a scalar, as written
-  std::vector<InputValue> items = {};    // of a list
-  std::vector<InputEntry> entries = {};  // of a map, in the order of the file
+  std::string text = {};               // of a scalar, as written
+  std::vector<InputValue> items = {};  // of a list
+  std::vector<InputEntry> entries;     // of a map, in the order of the file
 
   // The value under a name in a map; nothing if there is none.
   [[nodiscard]] const InputValue* find(std::string_view name) const;

@@ -50,7 +50,7 @@ Json leaf_schema(const Key& key) {
     case KeyType::integer: {
       if (key.count == Count::one) return number_schema(key);
       const bool four = key.count == Count::four;
-      const Json list{{"type", "array"}, {"items", number_schema(key)}, {"minItems", four ? 4 : 2}, {"maxItems", four ? 4 : 3}};
+      Json list{{"type", "array"}, {"items", number_schema(key)}, {"minItems", four ? 4 : 2}, {"maxItems", four ? 4 : 3}};
       if (key.count == Count::one_or_per_dimension) return Json{{"anyOf", Json::array({number_schema(key), list})}};
       return list;
     }
@@ -89,10 +89,11 @@ Json node_schema(const KeyNode& node);
 void add_choices(const KeyNode& node, Json& schema) {
   std::vector<std::pair<const Key*, std::vector<std::string>>> choices;
   for (const auto& [name, child] : node.children) {
-    if (child->key->choice.empty()) continue;
-    const auto same = [&](const auto& choice) { return choice.first->choice == child->key->choice; };
+    const Key* key = child->key;
+    if (key->choice.empty()) continue;
+    const auto same = [&](const auto& choice) { return choice.first->choice == key->choice; };
     auto place = std::find_if(choices.begin(), choices.end(), same);
-    if (place == choices.end()) place = choices.insert(place, {child->key, {}});
+    if (place == choices.end()) place = choices.insert(place, {key, {}});
     place->second.push_back(name);
   }
   for (const auto& [first, names] : choices) {

@@ -23,7 +23,7 @@ using Kind = InputValue::Kind;
 }
 
 // a.b[0].c -> a, b, 0, c
-std::vector<std::string> segments(std::string path) {
+std::vector<std::string> segments(const std::string& path) {
   std::string plain;
   for (const char c : path) {
     if (c == '[') plain += '.';
@@ -63,7 +63,8 @@ InputValue& step_down(InputValue& value, const std::string& segment, const std::
     if (entry.name == segment) return entry.value;
   }
   const SourceLocation where{"--set " + path, 0, 0};
-  value.entries.push_back({segment, where, InputValue{.where = where}});
+  value.entries.push_back({segment, where, {}});
+  value.entries.back().value.where = where;
   return value.entries.back().value;
 }
 
