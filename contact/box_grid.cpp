@@ -13,7 +13,7 @@ constexpr double cell_per_extent = 0.5;
 constexpr double slots_per_box = 4;
 
 // So many values tell a median or a quantile well enough.
-constexpr std::size_t sample_size = 4096;
+constexpr std::size_t sample_size = 1024;
 
 template <class Value>
 std::vector<double> sample(std::size_t count, const Value& value) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/written_later.h"
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::contact {
@@ -73,10 +74,13 @@ Stencil<dim> literal_owner(const Contact<dim>& contact) {
   return owner;
 }
 
+template <int dim>
+using Contacts = VectorWrittenLater<Contact<dim>>;
+
 // Ordered by owner, owner's face, corner, and target, so that equal packings give equal sets; overlaps come after the others.
 template <int dim>
 struct ContactSet {
-  std::vector<Contact<dim>> contacts;
+  Contacts<dim> contacts;
   std::size_t semi_springs = 0;  // all there are, with a target or without
   std::size_t semi_edges = 0;
 

@@ -87,7 +87,7 @@ class SemiSprings {
 
   [[nodiscard]] std::size_t count() const { return starts_.back(); }
 
-  void put_into(std::vector<Contact<dim>>& contacts) const {
+  void put_into(Contacts<dim>& contacts) const {
     std::vector<const SpringTouch<dim>*> touches(targets_.of_springs.size(), nullptr);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t i = 0; i < targets_.touches.size(); ++i) {

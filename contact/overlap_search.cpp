@@ -98,25 +98,28 @@ OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wan
 
 // What work(chunk, into) appends for every chunk of [0, count), in order. On all threads, some chunks at a time: what they give
 // is copied while it is in the cache, and its memory is used again.
-template <class Item, class Work>
-std::vector<Item> collected(std::size_t count, const Work& work) {
-  constexpr std::size_t group = 16 * chunk_size;
-  std::vector<Item> items;
-  std::vector<std::vector<Item>> parts(chunk_count(group));
+template <class Items, class Work>
+Items collected(std::size_t count, const Work& work) {
+  constexpr std::size_t group = 64 * chunk_size;
+  Items items;
+  std::vector<std::vector<typename Items::value_type>> parts(chunk_count(group));
+  std::vector<std::size_t> ends(parts.size());
   for (std::size_t from = 0; from < count; from += group) {
     const std::size_t faces = std::min(group, count - from);
     for_chunks(faces, [&](Chunk chunk) {
       parts[chunk.number].clear();
       work(Chunk{chunk.number, from + chunk.begin, from + chunk.end}, parts[chunk.number]);
     });
-    std::size_t more = 0;
-    for (std::size_t i = 0; i < chunk_count(faces); ++i) more += parts[i].size();
+    std::size_t all = items.size();
+    for (std::size_t i = 0; i < chunk_count(faces); ++i) ends[i] = all += parts[i].size();
     // As many as there will be if it goes on like this.
     const double share = static_cast<double>(from + faces) / static_cast<double>(count);
-    if (items.size() + more > items.capacity()) {
-      items.reserve(static_cast<std::size_t>(1.05 * static_cast<double>(items.size() + more) / share) + 1);
-    }
-    for (std::size_t i = 0; i < chunk_count(faces); ++i) items.insert(items.end(), parts[i].begin(), parts[i].end());
+    if (all > items.capacity()) items.reserve(static_cast<std::size_t>(1.05 * static_cast<double>(all) / share) + 1);
+    items.resize(all);
+    for_chunks(faces, [&](Chunk chunk) {
+      const auto& part = parts[chunk.number];
+      std::copy(part.begin(), part.end(), items.begin() + static_cast<std::ptrdiff_t>(ends[chunk.number] - part.size()));
+    });
   }
   return items;
 }
@@ -139,10 +142,10 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
 
 // What `make` gives for every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of
 // faces, first < second: make(first, second, points, into) appends to `into`. On all threads.
-template <class Item, int dim, class Wanted, class Make>
-std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
+template <class Items, int dim, class Wanted, class Make>
+Items of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
   const OrderedPairs pairs = near_pairs(surface, tolerance, wanted);
-  return collected<Item>(surface.faces.size(), [&](Chunk chunk, std::vector<Item>& items) {
+  return collected<Items>(surface.faces.size(), [&](Chunk chunk, auto& items) {
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
       const FaceId first{f};
@@ -161,9 +164,9 @@ std::vector<Item> of_overlaps(const Surface<dim>& surface, double tolerance, con
 }  // namespace
 
 template <int dim>
-std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options) {
+Contacts<dim> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options) {
   const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
-  return of_overlaps<Contact<dim>>(
+  return of_overlaps<Contacts<dim>>(
       surface, options.tolerance, wanted,
       [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
         for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
@@ -175,7 +178,7 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
   if (mesh.blocks.size() < 2) return {};
   const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
-  const auto shares = of_overlaps<Share>(
+  const auto shares = of_overlaps<std::vector<Share>>(
       surface, tolerance, [](BodyId, BodyId) { return true; },
       [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Share>& into) {
         const auto body_of = [&](FaceId face) { return mesh.blocks[surface.faces[face].block].body; };
@@ -186,8 +189,8 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
   return areas;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                          \
-  template std::vector<Contact<dim>> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&); \
+#define SCREE_INSTANTIATE(dim)                                                              \
+  template Contacts<dim> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&); \
   template std::map<std::pair<BodyId, BodyId>, double> overlap_areas<dim>(const mesh::BlockMesh<dim>&, double);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -14,6 +14,6 @@ namespace scree::contact {
 // Faces lie on each other where they are opposed (overlap.h) and the gap is at most `tolerance` characteristic lengths of the
 // smaller of the two elements, so that a face does not reach through a block that is thin for it.
 template <int dim>
-std::vector<Contact<dim>> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options);
+Contacts<dim> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options);
 
 }  // namespace scree::contact

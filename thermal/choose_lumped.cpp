@@ -240,7 +240,7 @@ class Chooser {
 
   const mesh::BlockMesh<dim>& mesh_;
   const Table<MaterialId, Material>& materials_;
-  const std::vector<contact::Contact<dim>>& contacts_;
+  const contact::Contacts<dim>& contacts_;
   const JointConduction<dim>& joints_;
   const HeatOptions& options_;
   const HeatModel& model_;

@@ -76,7 +76,7 @@ class PerfectJoints {
 
   const mesh::BlockMesh<dim>& mesh_;
   const Table<MaterialId, Material>& materials_;
-  const std::vector<contact::Contact<dim>>& contacts_;
+  const contact::Contacts<dim>& contacts_;
   std::vector<std::size_t> perfect_;
   Table<ElementId, double> bounds_;
 };

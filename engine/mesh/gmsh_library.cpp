@@ -30,7 +30,7 @@ class Owned {
  public:
   Owned() = default;
   ~Owned() {
-    if (data_ != nullptr) find<decltype(gmshFree)>("gmshFree")(data_);
+    if (data_ != nullptr) free_(data_);
   }
   Owned(const Owned&) = delete;
   Owned& operator=(const Owned&) = delete;
@@ -40,6 +40,7 @@ class Owned {
   [[nodiscard]] std::string text() const { return data_ == nullptr ? std::string() : std::string(data_); }
 
  private:
+  decltype(gmshFree)* free_ = find<decltype(gmshFree)>("gmshFree");
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };
@@ -70,10 +71,9 @@ class OwnedLists {
  public:
   OwnedLists() = default;
   ~OwnedLists() {
-    const auto free = find<decltype(gmshFree)>("gmshFree");
-    for (std::size_t i = 0; i < count_; ++i) free(data_[i]);
-    if (data_ != nullptr) free(data_);
-    if (sizes_ != nullptr) free(sizes_);
+    for (std::size_t i = 0; i < count_; ++i) free_(data_[i]);
+    if (data_ != nullptr) free_(data_);
+    if (sizes_ != nullptr) free_(sizes_);
   }
   OwnedLists(const OwnedLists&) = delete;
   OwnedLists& operator=(const OwnedLists&) = delete;
@@ -83,6 +83,7 @@ class OwnedLists {
   [[nodiscard]] std::vector<std::size_t> list(std::size_t i) const { return {data_[i], data_[i] + sizes_[i]}; }
 
  private:
+  decltype(gmshFree)* free_ = find<decltype(gmshFree)>("gmshFree");
   std::size_t** data_ = nullptr;
   std::size_t* sizes_ = nullptr;
   std::size_t count_ = 0;

@@ -1,6 +1,7 @@
 #include "engine/output/canvas.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <vtkCamera.h>
@@ -115,8 +116,8 @@ void place(vtkCamera& target, const std::vector<Eigen::Vector3d>& points, const 
 
 }  // namespace
 
-Canvas::Canvas(const Picture& picture, const Colouring& colouring, const std::vector<Eigen::Vector3d>& points)
-    : picture_(picture), colouring_(colouring) {
+Canvas::Canvas(const Picture& picture, Colouring colouring, const std::vector<Eigen::Vector3d>& points)
+    : picture_(picture), colouring_(std::move(colouring)) {
   const double width = colouring_.legend ? 1 - legend_width : 1;
   scene_->SetBackground(1, 1, 1);
   scene_->SetViewport(0, 0, width, 1);

@@ -19,7 +19,7 @@ namespace scree::output {
 class Canvas {
  public:
   // The camera sees all `points`; 3-D is seen from above at an angle, from the side of negative y, 2-D from the front.
-  Canvas(const Picture& picture, const Colouring& colouring, const std::vector<Eigen::Vector3d>& points);
+  Canvas(const Picture& picture, Colouring colouring, const std::vector<Eigen::Vector3d>& points);
 
   // The frame as an image in RGB, bottom row first.
   vtkSmartPointer<vtkImageData> draw(const ShownFrame& frame);

@@ -24,8 +24,9 @@ pybind11::array view(const T* first, std::size_t count, std::size_t stride, std:
 }
 
 // One number of every item of a list of structs.
-template <class Number, class Item, class Member>
-pybind11::array member_view(const std::vector<Item>& items, Member Item::*member, std::size_t width, pybind11::handle owner) {
+template <class Number, class Item, class Member, class Memory>
+pybind11::array member_view(const std::vector<Item, Memory>& items, Member Item::*member, std::size_t width,
+                            pybind11::handle owner) {
   static const Item none{};
   const Item& first = items.empty() ? none : items.front();
   return view(reinterpret_cast<const Number*>(&(first.*member)), items.size(), sizeof(Item), width, owner);
