@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -70,7 +71,7 @@ class Chooser {
   }
 
  private:
-  using Entries = std::ranges::subrange<std::vector<Entry>::const_iterator>;
+  using Entries = std::span<const Entry>;
 
   [[nodiscard]] const std::string& body_name(BlockId block) const { return mesh_.bodies[mesh_.blocks[block].body].name; }
   [[nodiscard]] bool candidate(BlockId block) const { return wanted_[block] != BlockModel::meshed && held_[block].nodes == 0; }

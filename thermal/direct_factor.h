@@ -17,7 +17,10 @@ class DirectFactor {
  public:
   using Matrix = Eigen::SparseMatrix<double>;
 
+  DirectFactor() = default;
   virtual ~DirectFactor() = default;
+  DirectFactor(const DirectFactor&) = delete;
+  DirectFactor& operator=(const DirectFactor&) = delete;
 
   // The symbolic part; its size if that is known before the numeric one.
   virtual FactorSize analyse(const Matrix& matrix) = 0;
@@ -26,42 +29,30 @@ class DirectFactor {
   // Needs factorise().
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   [[nodiscard]] virtual bool sound() const = 0;
-  [[nodiscard]] bool analysed() const { return analysed_; }
+  [[nodiscard]] virtual bool analysed() const = 0;
+};
 
- protected:
-  DirectFactor() = default;
-  DirectFactor(const DirectFactor&) = delete;
-  DirectFactor& operator=(const DirectFactor&) = delete;
+// What CHOLMOD does of a Cholesky factorisation.
+class CholeskyFactor {
+ public:
+  using Matrix = DirectFactor::Matrix;
 
-  bool analysed_ = false;
+  CholeskyFactor() = default;
+  virtual ~CholeskyFactor() = default;
+  CholeskyFactor(const CholeskyFactor&) = delete;
+  CholeskyFactor& operator=(const CholeskyFactor&) = delete;
+
+  virtual FactorSize analyse(const Matrix& matrix) = 0;
+  virtual void factorise(const Matrix& matrix) = 0;
+  [[nodiscard]] virtual bool sound() const = 0;
+  // After factorise(), until the next.
+  [[nodiscard]] virtual SupernodalFactor factor() const = 0;
 };
 
 // Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.
 std::unique_ptr<DirectFactor> make_cholesky();
 // LU.
 std::unique_ptr<DirectFactor> make_lu();
-
-}  // namespace scree::thermal
-
-namespace scree::thermal {
-
-// CHOLMOD's part of it, likewise.
-class CholeskyFactor {
- public:
-  using Matrix = DirectFactor::Matrix;
-
-  virtual ~CholeskyFactor() = default;
-  virtual FactorSize analyse(const Matrix& matrix) = 0;
-  virtual void factorise(const Matrix& matrix) = 0;
-  [[nodiscard]] virtual bool sound() const = 0;
-  // After factorise(), until the next.
-  [[nodiscard]] virtual SupernodalFactor factor() const = 0;
-
- protected:
-  CholeskyFactor() = default;
-  CholeskyFactor(const CholeskyFactor&) = delete;
-  CholeskyFactor& operator=(const CholeskyFactor&) = delete;
-};
 
 }  // namespace scree::thermal
 

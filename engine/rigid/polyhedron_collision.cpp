@@ -33,8 +33,8 @@ void place(const PolyhedronShape& shape, const btTransform& pose, PlacedPiece& p
   placed.piece = &shape.piece();
   placed.vertices.clear();
   placed.normals.clear();
-  for (const auto& vertex : shape.piece().vertices) placed.vertices.push_back(rotation * vertex + origin);
-  for (const auto& face : shape.piece().faces) placed.normals.push_back(rotation * face.normal);
+  for (const auto& vertex : shape.piece().vertices) placed.vertices.emplace_back(rotation * vertex + origin);
+  for (const auto& face : shape.piece().faces) placed.normals.emplace_back(rotation * face.normal);
 }
 
 // No two points of the pair approach each other faster than this [m/s].

@@ -107,7 +107,7 @@ class Settling {
 
 Motion Settling::advance(double viscous) {
   if (world_.hanging() > 0) {
-    const double blocks = static_cast<double>(world_.movable());
+    const auto blocks = static_cast<double>(world_.movable());
     world_.release(static_cast<std::size_t>(std::min(1.0, time() / options_.release_time) * blocks) + 1);
   }
   const double step = halved_ ? options_.step / 2 : options_.step;
