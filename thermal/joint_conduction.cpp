@@ -41,8 +41,8 @@ class JointRows {
         conduction_(conduction),
         form_(form),
         rows_(rows),
-        contacts_at_(size, [this](const auto& visit) { visit_contacts(visit); }),
-        perfect_at_(conduction.perfect.empty() ? 0 : size, [this](const auto& visit) { visit_perfect(visit); }) {}
+        contacts_at_(size, [this](const auto& visit) { this->visit_contacts(visit); }),
+        perfect_at_(conduction.perfect.empty() ? 0 : size, [this](const auto& visit) { this->visit_perfect(visit); }) {}
 
   void add_row(int row, RowSum& sum) const {
     if (!conduction_.perfect.empty()) {

@@ -26,7 +26,7 @@ std::vector<NodeId> ledger_nodes(const HeatModel& model) {
     const std::vector<NodeId> first = nodes;
     for (const NodeId node : first) {
       for (SparseMatrix::InnerIterator entry(matrix, node.value()); entry; ++entry) {
-        nodes.push_back(NodeId(static_cast<std::size_t>(entry.row())));
+        nodes.emplace_back(static_cast<std::size_t>(entry.row()));
       }
     }
   };

@@ -52,7 +52,10 @@ struct Shape {
     return all;
   }
 
-  friend bool operator==(const Shape& a, const Shape& b) { return std::memcmp(&a, &b, sizeof(Shape)) == 0; }
+  // To the bit, as is hashed; there is no padding.
+  friend bool operator==(const Shape& a, const Shape& b) {
+    return std::memcmp(&a, &b, sizeof(Shape)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison)
+  }
 };
 
 template <int dim>

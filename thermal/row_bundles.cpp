@@ -12,18 +12,17 @@ namespace {
 
 constexpr int lanes = rows_in_bundle;
 using Quad = double __attribute__((vector_size(32)));
-using Order = long long __attribute__((vector_size(32)));
 
 SCREE_INLINE void load(Quad& quad, const double* from) {
   std::memcpy(&quad, from, sizeof quad);
 }
 
 // One column of x: a lane for each row.
-SCREE_INLINE void bundle_of_single(int begin, int end, const int* column, const double* value, const double* x,
+SCREE_INLINE void bundle_of_single(const Bundle& bundle, const int* column, const double* value, const double* x,
                                    const double* here, double* flow) {
   Quad from, values, sum{};
   load(from, here);
-  for (int k = begin; k < end; ++k) {
+  for (int k = bundle.begin; k < bundle.begin + bundle.columns; ++k) {
     const double there = x[column[k]];
     load(values, value + lanes * static_cast<std::ptrdiff_t>(k));
     sum += values * (Quad{there, there, there, there} - from);
@@ -32,17 +31,17 @@ SCREE_INLINE void bundle_of_single(int begin, int end, const int* column, const 
 }
 
 // Two columns of x: two rows to a Quad.
-SCREE_INLINE void bundle_of_twin(int begin, int end, const int* column, const double* value, const double* x,
+SCREE_INLINE void bundle_of_twin(const Bundle& bundle, const int* column, const double* value, const double* x,
                                  const double* here, double* flow) {
   Quad from[2], values, sum[2] = {};
   load(from[0], here);
   load(from[1], here + lanes);
-  for (int k = begin; k < end; ++k) {
+  for (int k = bundle.begin; k < bundle.begin + bundle.columns; ++k) {
     const double* at = x + 2 * static_cast<std::ptrdiff_t>(column[k]);
     const Quad there{at[0], at[1], at[0], at[1]};
     load(values, value + lanes * static_cast<std::ptrdiff_t>(k));
-    sum[0] += __builtin_shuffle(values, Order{0, 0, 1, 1}) * (there - from[0]);
-    sum[1] += __builtin_shuffle(values, Order{2, 2, 3, 3}) * (there - from[1]);
+    sum[0] += __builtin_shufflevector(values, values, 0, 0, 1, 1) * (there - from[0]);
+    sum[1] += __builtin_shufflevector(values, values, 2, 2, 3, 3) * (there - from[1]);
   }
   std::memcpy(flow, sum, sizeof sum);
 }
@@ -53,7 +52,7 @@ SCREE_INLINE void flows_of(std::span<const Bundle> bundles, const int* column, c
   for (const Bundle& bundle : bundles) {
     const double* here = x + width * static_cast<std::ptrdiff_t>(bundle.first);
     const auto kernel = width == 1 ? bundle_of_single : bundle_of_twin;
-    kernel(bundle.begin, bundle.begin + bundle.columns, column, value, x, here, flow);
+    kernel(bundle, column, value, x, here, flow);
     flow += width * lanes;
   }
 }
