@@ -1,7 +1,6 @@
 #include "thermal/supernodal_solve.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/base/phases.h"
 
@@ -17,8 +16,9 @@ constexpr std::int64_t entries_worth_sharing = 200'000;
 // -1: a root.
 std::vector<int> parents_of(const SupernodalFactor& factor) {
   std::vector<int> holder(factor.unknowns);  // the supernode of each column
-  for (int s = 0; s < factor.supernodes; ++s)
+  for (int s = 0; s < factor.supernodes; ++s) {
     std::fill(holder.begin() + factor.first[s], holder.begin() + factor.first[s + 1], s);
+  }
   std::vector<int> parents(factor.supernodes, -1);
   for (int s = 0; s < factor.supernodes; ++s) {
     const int columns = factor.first[s + 1] - factor.first[s];
@@ -46,15 +46,13 @@ SupernodalSolve::SupernodalSolve(const SupernodalFactor& factor) : factor_(facto
 
 void SupernodalSolve::cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries) {
   const int count = factor_.supernodes;
-  std::vector<std::vector<int>> children(count + 1);  // the last: roots
-  for (int s = 0; s < count; ++s) children[parents[s] < 0 ? count : parents[s]].push_back(s);
   std::int64_t all = 0;
-  for (const int root : children[count]) all += entries[root];
+  for (int s = 0; s < count; ++s) all += parents[s] < 0 ? entries[s] : 0;
   const std::int64_t largest = std::max(all / parts, entries_worth_sharing);
 
   // Which task a supernode belongs to: parents first.
   constexpr int in_top = -1;
-  std::vector<int> task(count + 1, in_top);
+  std::vector<int> task(count, in_top);
   for (int s = count - 1; s >= 0; --s) {
     const int above = parents[s] < 0 ? in_top : task[parents[s]];
     if (above != in_top) {
