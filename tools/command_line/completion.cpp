@@ -14,6 +14,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string names_of_commands(const std::vector<CommandRow>& commands) {
   std::vector<std::string> names;
+  names.reserve(commands.size());
   for (const CommandRow& command : commands) names.push_back(command.name);
   return joined(names);
 }
@@ -30,9 +31,9 @@ std::string names_of_options(const CommandRow& command) {
 std::string bash_values(const OptionRow& option) {
   switch (option.value) {
     case Value::file:
-      return "COMPREPLY=($(compgen -f -- \"$word\"))";
+      return R"(COMPREPLY=($(compgen -f -- "$word")))";
     case Value::directory:
-      return "COMPREPLY=($(compgen -d -- \"$word\"))";
+      return R"(COMPREPLY=($(compgen -d -- "$word")))";
     case Value::choice:
       return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", joined(option.choices));
     case Value::free_text:

@@ -31,6 +31,7 @@ btVector3 to_bullet(const Eigen::Vector3d& v) {
 // Bullet's solver, which forgets friction from step to step, reminded of it.
 class FrictionSolver final : public btSequentialImpulseConstraintSolver {
  protected:
+  // Bullet's parameters. NOLINTNEXTLINE(readability-function-size)
   btScalar solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
                                         int manifold_count, btTypedConstraint** constraints, int constraint_count,
                                         const btContactSolverInfo& info, btIDebugDraw* draw) override {
