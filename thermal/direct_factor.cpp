@@ -26,7 +26,6 @@ class Cholesky : public DirectFactor {
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return solve_.value().solve(rhs); }
   [[nodiscard]] bool sound() const override { return factor_->sound(); }
-  [[nodiscard]] bool analysed() const override { return analysed_; }
 
  private:
   std::unique_ptr<CholeskyFactor> factor_ = made_by<CholeskyFactor>("scree_make_cholesky");

@@ -29,7 +29,6 @@ class DirectFactor {
   // Needs factorise().
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   [[nodiscard]] virtual bool sound() const = 0;
-  [[nodiscard]] virtual bool analysed() const = 0;
 };
 
 // What CHOLMOD does of a Cholesky factorisation.

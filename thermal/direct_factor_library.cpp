@@ -83,7 +83,6 @@ class Lu : public DirectFactor {
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return lu_.solve(rhs); }
   [[nodiscard]] bool sound() const override { return lu_.info() == Eigen::Success; }
-  [[nodiscard]] bool analysed() const override { return analysed_; }
 
  private:
   bool analysed_ = false;

@@ -100,7 +100,7 @@ void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at
 Eigen::MatrixXd HeatSolver::solve(const Eigen::MatrixXd& rhs) const {
   if (free_.size() == 0) return rhs;
   if (multigrid_) return iterate(rhs, full_accuracy);
-  SCREE_EXPECT(factor_->analysed());
+  SCREE_EXPECT(factorisations_ > 0);
   return checked(factor_->solve(rhs));
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "thermal/wide.h"
 
@@ -11,11 +10,7 @@ namespace scree::thermal {
 namespace {
 
 constexpr int lanes = rows_in_bundle;
-using Quad = double __attribute__((vector_size(32)));
-
-SCREE_INLINE void load(Quad& quad, const double* from) {
-  std::memcpy(&quad, from, sizeof quad);
-}
+static_assert(lanes == numbers_in_quad);
 
 // One column of x: a lane for each row.
 SCREE_INLINE void bundle_of_single(const Bundle& bundle, const int* column, const double* value, const double* x,
@@ -27,7 +22,7 @@ SCREE_INLINE void bundle_of_single(const Bundle& bundle, const int* column, cons
     load(values, value + lanes * static_cast<std::ptrdiff_t>(k));
     sum += values * (Quad{there, there, there, there} - from);
   }
-  std::memcpy(flow, &sum, sizeof sum);
+  store(sum, flow);
 }
 
 // Two columns of x: two rows to a Quad.
@@ -43,7 +38,8 @@ SCREE_INLINE void bundle_of_twin(const Bundle& bundle, const int* column, const 
     sum[0] += __builtin_shufflevector(values, values, 0, 0, 1, 1) * (there - from[0]);
     sum[1] += __builtin_shufflevector(values, values, 2, 2, 3, 3) * (there - from[1]);
   }
-  std::memcpy(flow, sum, sizeof sum);
+  store(sum[0], flow);
+  store(sum[1], flow + lanes);
 }
 
 template <int width>
@@ -55,14 +51,6 @@ SCREE_INLINE void flows_of(std::span<const Bundle> bundles, const int* column, c
     kernel(bundle, column, value, x, here, flow);
     flow += width * lanes;
   }
-}
-
-SCREE_WIDE void single(std::span<const Bundle> bundles, const int* column, const double* value, const double* x, double* flow) {
-  flows_of<1>(bundles, column, value, x, flow);
-}
-
-SCREE_WIDE void twin(std::span<const Bundle> bundles, const int* column, const double* value, const double* x, double* flow) {
-  flows_of<2>(bundles, column, value, x, flow);
 }
 
 // A column of a bundle takes as long as two entries of a row by itself, and from memory as long as three.
@@ -110,13 +98,13 @@ bool RowBundles::add(const Eigen::SparseMatrix<double>& matrix, int row) {
 }
 
 template <>
-void RowBundles::flows<1>(std::size_t begin, std::size_t end, const double* x, double* flow) const {
-  single(std::span(bundles_).subspan(begin, end - begin), columns_.data(), values_.data(), x, flow);
+SCREE_WIDE void RowBundles::flows<1>(std::size_t begin, std::size_t end, const double* x, double* flow) const {
+  flows_of<1>(std::span(bundles_).subspan(begin, end - begin), columns_.data(), values_.data(), x, flow);
 }
 
 template <>
-void RowBundles::flows<2>(std::size_t begin, std::size_t end, const double* x, double* flow) const {
-  twin(std::span(bundles_).subspan(begin, end - begin), columns_.data(), values_.data(), x, flow);
+SCREE_WIDE void RowBundles::flows<2>(std::size_t begin, std::size_t end, const double* x, double* flow) const {
+  flows_of<2>(std::span(bundles_).subspan(begin, end - begin), columns_.data(), values_.data(), x, flow);
 }
 
 }  // namespace scree::thermal

@@ -40,14 +40,6 @@ SCREE_INLINE void flows_of(std::span<const RowRun> runs, const int* column, cons
   }
 }
 
-SCREE_WIDE void single(std::span<const RowRun> runs, const int* column, const double* value, const double* x, double* flow) {
-  flows_of<1>(runs, column, value, x, flow);
-}
-
-SCREE_WIDE void twin(std::span<const RowRun> runs, const int* column, const double* value, const double* x, double* flow) {
-  flows_of<2>(runs, column, value, x, flow);
-}
-
 // Whether row `row` is the one before, moved along by one.
 bool repeats(const Eigen::SparseMatrix<double>& matrix, Eigen::Index row) {
   const int* outer = matrix.outerIndexPtr();
@@ -106,13 +98,13 @@ std::span<const RowRuns::Part> RowRuns::parts_of_task(int task, int threads) con
 }
 
 template <>
-void RowRuns::flows<1>(const Part& part, const double* x, double* flow) const {
-  single(std::span(runs_).subspan(part.begin, part.end - part.begin), column_, value_, x, flow);
+SCREE_WIDE void RowRuns::flows<1>(const Part& part, const double* x, double* flow) const {
+  flows_of<1>(std::span(runs_).subspan(part.begin, part.end - part.begin), column_, value_, x, flow);
 }
 
 template <>
-void RowRuns::flows<2>(const Part& part, const double* x, double* flow) const {
-  twin(std::span(runs_).subspan(part.begin, part.end - part.begin), column_, value_, x, flow);
+SCREE_WIDE void RowRuns::flows<2>(const Part& part, const double* x, double* flow) const {
+  flows_of<2>(std::span(runs_).subspan(part.begin, part.end - part.begin), column_, value_, x, flow);
 }
 
 }  // namespace scree::thermal

@@ -98,18 +98,11 @@ void SupernodalSolve::forward(const Task& task, double* x, double* above) const 
   std::vector<double> w(sides * most_rows_);
   for (const int s : task.supernodes) {
     const Supernode node = factor_.supernode(s);
-    const int* rows = factor_.rows + factor_.rows_begin[s];
-    for (int c = 0; c < sides; ++c) {
-      double* side = w.data() + c * node.rows;
-      for (int i = 0; i < node.columns; ++i) side[i] = x[sides * rows[i] + c];
-      std::fill(side + node.columns, side + node.rows, 0.0);
-    }
+    factor_.load<sides>(s, node.columns, x, w.data());
     thermal::forward<sides>(node, {0, node.columns}, node.rows, w.data());
+    factor_.store<sides>(s, rows_below_[s], w.data(), x);
     for (int c = 0; c < sides; ++c) {
-      const double* side = w.data() + c * node.rows;
-      for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = side[i];
-      for (int i = node.columns; i < rows_below_[s]; ++i) x[sides * rows[i] + c] += side[i];
-      for (int i = rows_below_[s]; i < node.rows; ++i) above[sides * top_place_[rows[i]] + c] += side[i];
+      for (int i = rows_below_[s]; i < node.rows; ++i) above[sides * top_place_[factor_.row(s, i)] + c] += w[c * node.rows + i];
     }
   }
 }
@@ -119,14 +112,9 @@ void SupernodalSolve::backward(const Task& task, double* x) const {
   std::vector<double> w(sides * most_rows_);
   for (auto s = task.supernodes.rbegin(); s != task.supernodes.rend(); ++s) {
     const Supernode node = factor_.supernode(*s);
-    const int* rows = factor_.rows + factor_.rows_begin[*s];
-    for (int c = 0; c < sides; ++c) {
-      for (int i = 0; i < node.rows; ++i) w[c * node.rows + i] = x[sides * rows[i] + c];
-    }
+    factor_.load<sides>(*s, node.rows, x, w.data());
     thermal::backward<sides>(node, {0, node.columns}, node.rows, w.data());
-    for (int c = 0; c < sides; ++c) {
-      for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = w[c * node.rows + i];
-    }
+    factor_.store<sides>(*s, node.columns, w.data(), x);
   }
 }
 

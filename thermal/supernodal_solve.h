@@ -32,11 +32,11 @@ class SupernodalSolve {
   };
   void cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries);
   void find_rows_above(const std::vector<int>& top);
-  template <int columns>
+  template <int sides>
   void solve(const double* rhs, double* solution) const;
-  template <int columns>
+  template <int sides>
   void forward(const Task& task, double* x, double* above) const;
-  template <int columns>
+  template <int sides>
   void backward(const Task& task, double* x) const;
 
   SupernodalFactor factor_;

@@ -6,15 +6,8 @@ namespace scree::thermal {
 
 namespace {
 
-// Four neighbouring rows.
-using FourRows = double __attribute__((vector_size(4 * sizeof(double))));
-constexpr int rows_at_once = 4;
 // Columns that are gone through together.
 constexpr int panel_columns = 4;
-
-SCREE_INLINE void load(const double* from, FourRows& rows) {
-  __builtin_memcpy(&rows, from, sizeof(rows));
-}
 
 SCREE_INLINE const double* column_of(const Supernode& node, int column) {
   return node.values + static_cast<std::ptrdiff_t>(column) * node.rows;
@@ -25,15 +18,15 @@ template <int panel, int sides>
 SCREE_INLINE void subtract_panel(const Supernode& node, int column, Span rows, const double (&y)[sides][panel], double* w) {
   const double* values = column_of(node, column);
   int i = rows.begin;
-  for (; i + rows_at_once <= rows.end; i += rows_at_once) {
-    FourRows sum[sides];
-    for (int c = 0; c < sides; ++c) load(w + c * node.rows + i, sum[c]);
+  for (; i + numbers_in_quad <= rows.end; i += numbers_in_quad) {
+    Quad sum[sides];
+    for (int c = 0; c < sides; ++c) load(sum[c], w + c * node.rows + i);
     for (int q = 0; q < panel; ++q) {
-      FourRows value;
-      load(values + q * node.rows + i, value);
+      Quad value;
+      load(value, values + q * node.rows + i);
       for (int c = 0; c < sides; ++c) sum[c] -= value * y[c][q];
     }
-    for (int c = 0; c < sides; ++c) __builtin_memcpy(w + c * node.rows + i, &sum[c], sizeof(sum[c]));
+    for (int c = 0; c < sides; ++c) store(sum[c], w + c * node.rows + i);
   }
   for (; i < rows.end; ++i) {
     for (int c = 0; c < sides; ++c) {
@@ -46,14 +39,14 @@ SCREE_INLINE void subtract_panel(const Supernode& node, int column, Span rows, c
 template <int panel, int sides>
 SCREE_INLINE void multiply_panel(const Supernode& node, int column, Span rows, const double* w, double (&sums)[sides][panel]) {
   const double* values = column_of(node, column);
-  FourRows lanes[sides][panel] = {};
+  Quad lanes[sides][panel] = {};
   int i = rows.begin;
-  for (; i + rows_at_once <= rows.end; i += rows_at_once) {
-    FourRows factor[sides];
-    for (int c = 0; c < sides; ++c) load(w + c * node.rows + i, factor[c]);
+  for (; i + numbers_in_quad <= rows.end; i += numbers_in_quad) {
+    Quad factor[sides];
+    for (int c = 0; c < sides; ++c) load(factor[c], w + c * node.rows + i);
     for (int q = 0; q < panel; ++q) {
-      FourRows value;
-      load(values + q * node.rows + i, value);
+      Quad value;
+      load(value, values + q * node.rows + i);
       for (int c = 0; c < sides; ++c) lanes[c][q] += value * factor[c];
     }
   }
@@ -148,65 +141,39 @@ SCREE_INLINE void multiply_in(const Supernode& node, Span columns, Span rows, co
     multiply_into<1, sides>(node, column, rows, w, stride, sums + (column - columns.begin));
 }
 
-// Templates cannot be made for several processors.
-SCREE_WIDE void forward_single(const Supernode& node, Span columns, int last, double* w) {
-  forward_in<1>(node, columns, last, w);
-}
-SCREE_WIDE void forward_twin(const Supernode& node, Span columns, int last, double* w) {
-  forward_in<2>(node, columns, last, w);
-}
-SCREE_WIDE void backward_single(const Supernode& node, Span columns, int last, double* w) {
-  backward_in<1>(node, columns, last, w);
-}
-SCREE_WIDE void backward_twin(const Supernode& node, Span columns, int last, double* w) {
-  backward_in<2>(node, columns, last, w);
-}
-SCREE_WIDE void subtract_single(const Supernode& node, Span columns, Span rows, double* w) {
-  subtract_in<1>(node, columns, rows, w);
-}
-SCREE_WIDE void subtract_twin(const Supernode& node, Span columns, Span rows, double* w) {
-  subtract_in<2>(node, columns, rows, w);
-}
-SCREE_WIDE void multiply_single(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
-  multiply_in<1>(node, columns, rows, w, sums);
-}
-SCREE_WIDE void multiply_twin(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
-  multiply_in<2>(node, columns, rows, w, sums);
-}
-
 }  // namespace
 
 template <>
-void forward<1>(const Supernode& node, Span columns, int last, double* w) {
-  forward_single(node, columns, last, w);
+SCREE_WIDE void forward<1>(const Supernode& node, Span columns, int last, double* w) {
+  forward_in<1>(node, columns, last, w);
 }
 template <>
-void forward<2>(const Supernode& node, Span columns, int last, double* w) {
-  forward_twin(node, columns, last, w);
+SCREE_WIDE void forward<2>(const Supernode& node, Span columns, int last, double* w) {
+  forward_in<2>(node, columns, last, w);
 }
 template <>
-void backward<1>(const Supernode& node, Span columns, int last, double* w) {
-  backward_single(node, columns, last, w);
+SCREE_WIDE void backward<1>(const Supernode& node, Span columns, int last, double* w) {
+  backward_in<1>(node, columns, last, w);
 }
 template <>
-void backward<2>(const Supernode& node, Span columns, int last, double* w) {
-  backward_twin(node, columns, last, w);
+SCREE_WIDE void backward<2>(const Supernode& node, Span columns, int last, double* w) {
+  backward_in<2>(node, columns, last, w);
 }
 template <>
-void subtract<1>(const Supernode& node, Span columns, Span rows, double* w) {
-  subtract_single(node, columns, rows, w);
+SCREE_WIDE void subtract<1>(const Supernode& node, Span columns, Span rows, double* w) {
+  subtract_in<1>(node, columns, rows, w);
 }
 template <>
-void subtract<2>(const Supernode& node, Span columns, Span rows, double* w) {
-  subtract_twin(node, columns, rows, w);
+SCREE_WIDE void subtract<2>(const Supernode& node, Span columns, Span rows, double* w) {
+  subtract_in<2>(node, columns, rows, w);
 }
 template <>
-void multiply<1>(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
-  multiply_single(node, columns, rows, w, sums);
+SCREE_WIDE void multiply<1>(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
+  multiply_in<1>(node, columns, rows, w, sums);
 }
 template <>
-void multiply<2>(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
-  multiply_twin(node, columns, rows, w, sums);
+SCREE_WIDE void multiply<2>(const Supernode& node, Span columns, Span rows, const double* w, double* sums) {
+  multiply_in<2>(node, columns, rows, w, sums);
 }
 
 }  // namespace scree::thermal

@@ -41,37 +41,14 @@ Span TopSupernodes::rows_of(const Block& block, int piece) const {
   return {begin, std::min(factor_.rows_of(block.supernode), begin + rows_in_piece)};
 }
 
-// The rows of the columns, and those below: forward what is taken from them is summed up from zero.
-template <int sides>
-void TopSupernodes::load(int supernode, bool below, const double* x, double* w) const {
-  const Supernode node = factor_.supernode(supernode);
-  const int* rows = factor_.rows + factor_.rows_begin[supernode];
-  for (int c = 0; c < sides; ++c) {
-    double* side = w + c * node.rows;
-    for (int i = 0; i < (below ? node.rows : node.columns); ++i) side[i] = x[sides * rows[i] + c];
-    if (!below) std::fill(side + node.columns, side + node.rows, 0.0);
-  }
-}
-
-template <int sides>
-void TopSupernodes::store(int supernode, bool below, const double* w, double* x) const {
-  const Supernode node = factor_.supernode(supernode);
-  const int* rows = factor_.rows + factor_.rows_begin[supernode];
-  for (int c = 0; c < sides; ++c) {
-    const double* side = w + c * node.rows;
-    for (int i = 0; i < node.columns; ++i) x[sides * rows[i] + c] = side[i];
-    for (int i = node.columns; i < (below ? node.rows : 0); ++i) x[sides * rows[i] + c] += side[i];
-  }
-}
-
 template <int sides>
 void TopSupernodes::forward_corner(std::size_t number, double* x, double* w) const {
   const Block& block = blocks_[number];
-  if (block.columns.begin == 0) {
-    if (number > 0) store<sides>(blocks_[number - 1].supernode, true, w, x);
-    load<sides>(block.supernode, false, x, w);
-  }
   const Supernode node = factor_.supernode(block.supernode);
+  if (block.columns.begin == 0) {
+    if (number > 0) factor_.store<sides>(blocks_[number - 1].supernode, factor_.rows_of(blocks_[number - 1].supernode), w, x);
+    factor_.load<sides>(block.supernode, node.columns, x, w);
+  }
   forward<sides>(node, block.columns, block.pieces > 0 ? block.columns.end : node.rows, w);
 }
 
@@ -89,8 +66,8 @@ void TopSupernodes::backward_corner(std::size_t number, double* x, Space& space)
   }
   backward<sides>(node, block.columns, block.pieces > 0 ? block.columns.end : node.rows, w);
   if (block.columns.begin > 0) return;
-  store<sides>(block.supernode, false, w, x);
-  if (number > 0) load<sides>(blocks_[number - 1].supernode, true, x, w);
+  factor_.store<sides>(block.supernode, node.columns, w, x);
+  if (number > 0) factor_.load<sides>(blocks_[number - 1].supernode, factor_.rows_of(blocks_[number - 1].supernode), x, w);
 }
 
 template <int sides>
@@ -105,8 +82,8 @@ void TopSupernodes::run(int phase, int task, double* x, Space& space) const {
   }
   if (phase == turn) {
     const int last = blocks_.back().supernode;
-    store<sides>(last, true, w, x);
-    return load<sides>(last, true, x, w);
+    factor_.store<sides>(last, factor_.rows_of(last), w, x);
+    return factor_.load<sides>(last, factor_.rows_of(last), x, w);
   }
   const auto number = blocks_.size() - 1 - static_cast<std::size_t>((phase - turn - 1) / 2);
   if ((phase - turn) % 2 == 0) return backward_corner<sides>(number, x, space);

@@ -4,26 +4,9 @@
 
 #include <vector>
 
-#include "thermal/supernode_kernels.h"
+#include "thermal/supernodal_factor.h"
 
 namespace scree::thermal {
-
-// As CHOLMOD keeps it (cholmod_core.h): supernode s has the columns first[s] to first[s + 1] and the rows from rows_begin[s] on
-// to rows_begin[s + 1], which begin with those of its columns and ascend; its values, column by column, start at
-// values_begin[s]. Row and column i stand for unknown permutation[i].
-struct SupernodalFactor {
-  int unknowns = 0;
-  int supernodes = 0;
-  const int* first = nullptr;
-  const int* rows_begin = nullptr;
-  const int* rows = nullptr;
-  const int* values_begin = nullptr;
-  const double* values = nullptr;
-  const int* permutation = nullptr;
-
-  [[nodiscard]] int rows_of(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
-  [[nodiscard]] Supernode supernode(int s) const { return {values + values_begin[s], rows_of(s), first[s + 1] - first[s]}; }
-};
 
 class TopSupernodes {
  public:
@@ -51,10 +34,6 @@ class TopSupernodes {
     int pieces;  // of the rows after it; 0: too few to share
   };
   [[nodiscard]] Span rows_of(const Block& block, int piece) const;
-  template <int sides>
-  void load(int supernode, bool below, const double* x, double* w) const;
-  template <int sides>
-  void store(int supernode, bool below, const double* w, double* x) const;
   template <int sides>
   void forward_corner(std::size_t number, double* x, double* w) const;
   template <int sides>

@@ -4,25 +4,16 @@
 
 #include <memory>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace scree {
 
 template <class Item>
 struct WrittenLater : std::allocator<Item> {
-  template <class Other>
-  struct rebind {
-    using other = WrittenLater<Other>;
-  };
   // Whoever asked for the element assigns to it before it is read.
   template <class Made>
   void construct(Made*) noexcept {
     static_assert(std::is_trivially_copyable_v<Made> && std::is_aggregate_v<Made>);
-  }
-  template <class Made, class... From>
-  void construct(Made* place, From&&... from) {
-    std::construct_at(place, std::forward<From>(from)...);
   }
 };
 

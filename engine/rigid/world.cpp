@@ -94,18 +94,18 @@ double density_of(const Material& material) {
 }  // namespace
 
 struct World::Bullet {
-  Bullet(const ContactRanges& ranges, const mesh::BlockMesh<3>& mesh, const SettleOptions& options)
-      : configuration(ranges, static_cast<int>(mesh.blocks.size())),
+  Bullet(const ContactRanges& found_in, const mesh::BlockMesh<3>& mesh, const SettleOptions& options)
+      : ranges(found_in),
+        configuration(ranges, static_cast<int>(mesh.blocks.size())),
         flights(mesh, options.release_time > 0),
         homes(mesh.blocks.size(), ranges.home),
         dispatcher(configuration, flights, homes),
-        world(&dispatcher, &broadphase, nullptr, &configuration),
-        bounce_speed(ranges.bounce_speed),
-        clearance(ranges.clearance) {
+        world(&dispatcher, &broadphase, nullptr, &configuration) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;  // added to every bounding box
   }
 
+  ContactRanges ranges;
   CollisionConfiguration configuration;
   Flights flights;
   Homes homes;
@@ -113,8 +113,6 @@ struct World::Bullet {
   btDbvtBroadphase broadphase;
   ContactSolver solver;
   btDiscreteDynamicsWorld world;  // only of its bodies and their pairs; steps are made here
-  double bounce_speed;            // [m/s]
-  double clearance;               // [m]
 
   [[nodiscard]] std::span<btPersistentManifold* const> manifolds() {
     return {dispatcher.getInternalManifoldPointer(), static_cast<std::size_t>(dispatcher.getNumManifolds())};
@@ -229,7 +227,7 @@ void World::step(double time_step, int iterations) {
   bullet_->world.getDispatchInfo().m_timeStep = time_step;
   bullet_->world.performDiscreteCollisionDetection();
   bullet_->solver.solve(free_bodies_, bullet_->manifolds(),
-                        {time_step, overlap_undone, bullet_->bounce_speed, bullet_->clearance}, iterations);
+                        {time_step, overlap_undone, bullet_->ranges.bounce_speed, bullet_->ranges.clearance}, iterations);
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       btTransform next;

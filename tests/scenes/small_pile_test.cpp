@@ -119,6 +119,17 @@ TEST_F(SmallPile, RefusesAClearanceAcrossWhichNoHeatWouldBeLookedFor) {
   EXPECT_FALSE(std::filesystem::exists(directory / "settle.pvd"));
 }
 
+TEST_F(SmallPile, RefusesAStoredPackingWhoseClearanceTheContactsNoLongerReachAcross) {
+  const auto directory = fresh_directory("small_pile_reach");
+  const std::vector<std::string> apart = {"settle.clearance=0.05 mm", "settle.limit=0.1 s", "settle.accept_moving=true"};
+  ASSERT_EQ(test::run("small_pile", directory, apart).exit_status, 0);
+  auto nearer = apart;
+  nearer.push_back("contact.tolerance=1e-5");
+  const SceneRun refused = test::run("small_pile", directory, nearer);
+  EXPECT_EQ(refused.exit_status, 2);
+  EXPECT_EQ(refused.summary["status"], "bad_input");
+}
+
 TEST_F(SmallPile, CanStartFromAPackingFile) {
   const SceneRun again = test::run("small_pile_reheated", fresh_directory("small_pile_from_file"),
                                    {"packing=" + (run_->directory / "packing.h5").string()});

@@ -54,7 +54,7 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
   const double most = 0.5 * scene.contact->tolerance * shortest;
   if (clearance <= most) return;
   Problem problem;
-  problem.where.file = scene.file.string();
+  problem.where = scene.settle->clearance_at;
   problem.key = "settle.clearance";
   problem.value = fmt::format("{:g} m", clearance);
   problem.rule =
@@ -78,11 +78,11 @@ packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks
 }
 
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
+  check_clearance(context.scene, blocks);
   if (packing::stored_key(context.files.packing()) == key) {
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
     return {packing::read<3>(context.files.packing()), true};
   }
-  check_clearance(context.scene, blocks);
   auto packing =
       context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
   return {std::move(packing), false};

@@ -18,6 +18,7 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   options.rest_displacement = settle.at("rest_displacement").number();
   options.rest_window = settle.at("rest_window").number();
   options.clearance = settle.at("clearance").number();
+  stage.clearance_at = settle.at("clearance").where;
   options.iterations = settle.at("iterations").integer();
   options.frame_interval = settle.at("frame_interval").number();
   stage.seed = settle.at("seed").integer();

@@ -18,7 +18,8 @@ namespace scree {
 
 struct SettleStage {
   rigid::SettleOptions options;
-  int seed = 0;  // another one, another packing of the same bodies; 0: they start exactly where they are placed
+  SourceLocation clearance_at;  // of options.clearance, that only the meshes can judge
+  int seed = 0;                 // another one, another packing of the same bodies; 0: they start exactly where they are placed
   double largest_overlap = 0.02;  // of two blocks at rest, over the mean edge, that a sound run may have [-]
   bool accept_moving = false;     // a pile still moving at the limit is accepted: exit 0, and the summary says so
 };
