@@ -31,6 +31,7 @@ scree_library(hypre_api HYPRE HYPRE_parcsr_ls.h hypre)
 scree_library(mpi_api mpi mpi.h mpi)
 file(REAL_PATH ${hypre_api_LIBRARY} hypre_soname)
 cmake_path(GET hypre_soname FILENAME hypre_soname)
+scree_library(amd_api amd amd.h suitesparse)
 scree_library(cholmod_api cholmod cholmod.h suitesparse)
 scree_library(umfpack_api umfpack umfpack.h suitesparse)
 

@@ -1,29 +1,36 @@
 #include "thermal/choose_scheme.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
+#include "thermal/quick_ordering.h"
+#include "thermal/step_forecast.h"
 
 namespace scree::thermal {
 
 namespace {
 
-// Measured on one core (README, "Which steps"): only their ratios matter.
-constexpr double seconds_per_entry = 1e-9;  // of K, in a product with two columns
+// Measured on two cores (README, "Which steps"): only their ratios matter.
+constexpr double seconds_per_entry = 7e-10;  // of K, in a product with two columns
 
-// The least that implicit steps will cost.
-double least_implicit(const HeatModel& model, LinearSolver solver) {
-  const double multigrid = multigrid_seconds(model.conductance.nonZeros(), use_of_linear_steps);
-  const double cholesky = least_cholesky_seconds(static_cast<double>(model.capacity.size()), use_of_linear_steps);
-  if (solver == LinearSolver::automatic) return std::min(multigrid, cholesky);
-  return solver == LinearSolver::multigrid ? multigrid : cholesky;
+// Whether implicit steps will cost more than so many seconds, as far as can be told without the analysis of their
+// factorisation, which takes a fifth of what the explicit steps of a pile take.
+bool implicit_costs_more(double seconds, const HeatModel& model, LinearSolver solver, const SolverUse& use) {
+  const double multigrid = multigrid_seconds(model.conductance.nonZeros(), use);
+  if (solver == LinearSolver::multigrid) return multigrid > seconds;
+  if (solver == LinearSolver::automatic && multigrid <= seconds) return false;
+  const FreeNodes free(model);
+  const auto unknowns = static_cast<double>(free.size());
+  if (least_cholesky_seconds(unknowns, use) > seconds) return true;
+  const FactorSize quick = quick_factor_size(free.lower_block(model.conductance));
+  return quick.possible && least_cholesky_seconds(unknowns, quick, use) > seconds;
 }
 
-ChosenScheme implicit(const HeatModel& model, LinearSolver solver, const std::string& why) {
-  auto scheme = make_implicit_scheme(model, solver);
+ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const std::string& why) {
+  const StepForecast forecast = forecast_steps(stable_step(model).step, options);
+  const SolverUse use = has_constant_properties(model) ? use_of_linear_steps(forecast) : use_of_newton_steps(forecast);
+  auto scheme = make_implicit_scheme(model, options.solver, use);
   const std::string of_solver = scheme->solver_cost().why;
   return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};
 }
@@ -41,19 +48,20 @@ ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
 
 ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
   if (!can_be_stabilised(model)) {
-    return implicit(model, options.solver, "conditions or properties change, which stabilised explicit steps do not do");
+    return implicit(model, options, "conditions or properties change, which stabilised explicit steps do not do");
   }
   const double stable = stable_step(model).step;
-  const double products = stabilised_products(stable, options);
-  const double stabilised = products * seconds_per_entry * static_cast<double>(model.conductance.nonZeros());
-  if (stabilised < least_implicit(model, options.solver)) {
+  const StepForecast forecast = forecast_steps(stable, options);
+  const SolverUse use = use_of_linear_steps(forecast);
+  const double stabilised = forecast.products * seconds_per_entry * static_cast<double>(model.conductance.nonZeros());
+  if (implicit_costs_more(stabilised, model, options.solver, use)) {
     return {make_stabilised_scheme(model, stable),
-            fmt::format("some {:.0f} products with K, less than implicit steps take", products)};
+            fmt::format("some {:.0f} products with K, less than implicit steps take", forecast.products)};
   }
-  auto scheme = make_linear_scheme(model, options.solver);
+  auto scheme = make_linear_scheme(model, options.solver, use);
   const SolverCost cost = scheme->solver_cost();
   const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or implicit steps, about {:.2g} s; {}",
-                                          products, stabilised, cost.seconds, cost.why);
+                                          forecast.products, stabilised, cost.seconds, cost.why);
   if (stabilised < cost.seconds) return {make_stabilised_scheme(model, stable), figures};
   return {std::move(scheme), figures};
 }
@@ -64,7 +72,7 @@ ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options) {
   if (model.shared_capacity) return fourth_order(model, options.integrator);
   switch (options.integrator) {
     case Integrator::implicit:
-      return implicit(model, options.solver, "asked for");
+      return implicit(model, options, "asked for");
     case Integrator::stabilised_explicit:
       return {make_stabilised_scheme(model), "asked for"};
     case Integrator::explicit_euler:

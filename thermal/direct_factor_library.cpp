@@ -44,7 +44,8 @@ class Cholmod : public CholeskyFactor {
   }
   FactorSize analyse(const Matrix& matrix) override {
     cholesky_.analyzePattern(matrix);
-    return {cholesky_.cholmod().lnz, cholesky_.cholmod().fl, cholesky_.cholmod().status == CHOLMOD_OK};
+    if (cholesky_.cholmod().status != CHOLMOD_OK) return {.possible = false};
+    return {static_cast<double>(cholesky_.factor().xsize), cholesky_.cholmod().fl, true};
   }
   void factorise(const Matrix& matrix) override {
     const OneOpenMpThread alone;

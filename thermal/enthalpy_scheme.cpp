@@ -22,8 +22,8 @@ constexpr double rounding = 1e-12;      // of a temperature: an iteration that m
 
 class EnthalpyScheme : public TimeScheme {
  public:
-  EnthalpyScheme(const HeatModel& model, LinearSolver solver)
-      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_, solver, use_of_newton_steps) {}
+  EnthalpyScheme(const HeatModel& model, LinearSolver solver, const SolverUse& use)
+      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_, solver, use) {}
 
   Step step(const Instant& from, double length) override {
     scale_ = gamma * length;
@@ -128,12 +128,12 @@ class EnthalpyScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver) {
-  return std::make_unique<EnthalpyScheme>(model, solver);
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
+  return std::make_unique<EnthalpyScheme>(model, solver, use);
 }
 
-std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver) {
-  return has_constant_properties(model) ? make_linear_scheme(model, solver) : make_enthalpy_scheme(model, solver);
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
+  return has_constant_properties(model) ? make_linear_scheme(model, solver, use) : make_enthalpy_scheme(model, solver, use);
 }
 
 }  // namespace scree::thermal

@@ -23,14 +23,14 @@ constexpr int refinements = 1;
 
 class LinearScheme : public TimeScheme {
  public:
-  LinearScheme(const HeatModel& model, LinearSolver solver)
+  LinearScheme(const HeatModel& model, LinearSolver solver, const SolverUse& use)
       : model_(model),
         drives_(model),
         balance_(model),
         free_(model),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
         capacity_(free_.gather(linear_.capacity)),
-        solver_(model, free_, solver, use_of_linear_steps) {}
+        solver_(model, free_, solver, use) {}
 
   Step step(const Instant& from, double length) override {
     if (length != prepared_) prepare(length);
@@ -162,8 +162,8 @@ class LinearScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver) {
-  return std::make_unique<LinearScheme>(model, solver);
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
+  return std::make_unique<LinearScheme>(model, solver, use);
 }
 
 }  // namespace scree::thermal

@@ -8,14 +8,18 @@ namespace scree::thermal {
 
 namespace {
 
-// Measured on one core (README, "Solver"): only their ratios matter.
-constexpr double seconds_per_flop = 2.5e-10;   // of a supernodal factorisation
+// Measured on two cores (README, "Which steps"): only their ratios matter.
+constexpr double seconds_per_flop = 4e-11;     // of a supernodal factorisation, which takes one
 constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
 constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
 constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
 constexpr double seconds_per_cycle = 1e-8;     // an entry of the matrix, in an iteration
 // A solve of a step is a column to full accuracy or one to some digits, or both.
-constexpr double cycles_per_solve = 19;
+constexpr double cycles_per_solve = 15;
+
+// How much more a quick ordering may leave than a thorough one: most in solid cubes (README, "Which steps").
+constexpr double entries_of_quick_ordering = 3;
+constexpr double flops_of_quick_ordering = 12;
 
 // What a factor may take: with the matrices and the model beside it, a computer of 16 GiB bears that.
 constexpr double most_bytes = 8e9;
@@ -34,10 +38,15 @@ double multigrid_seconds(std::int64_t entries, const SolverUse& use) {
   return static_cast<double>(entries) * (use.matrices * seconds_per_setup + use.solves * cycles_per_solve * seconds_per_cycle);
 }
 
-// Solves with half the factor of a plane grid (31/4 n log2 n entries with nested dissection; George, SIAM J. Numer. Anal. 10,
-// 1973). Solids have more.
+// Solves with an eighth of the factor of a large plane grid (31/4 n log2 n entries with nested dissection; George, SIAM J.
+// Numer. Anal. 10, 1973). Solids have far more, small plane meshes hardly less.
 double least_cholesky_seconds(double unknowns, const SolverUse& use) {
-  return seconds_per_unknown * unknowns + use.solves * seconds_per_factor * 4 * unknowns * std::log2(unknowns);
+  return seconds_per_unknown * unknowns + use.solves * seconds_per_factor * unknowns * std::log2(unknowns);
+}
+
+double least_cholesky_seconds(double unknowns, const FactorSize& quick, const SolverUse& use) {
+  const FactorSize least{quick.entries / entries_of_quick_ordering, quick.flops / flops_of_quick_ordering, quick.possible};
+  return seconds_per_unknown * unknowns + cholesky_seconds(least, use);
 }
 
 ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const SolverUse& use) {

@@ -8,31 +8,31 @@
 
 namespace scree::thermal {
 
-// What a run will ask of its solver, about.
+// What a run will ask of its solver, about: by default one of some hundred steps.
 struct SolverUse {
-  double matrices = 0;
-  double solves = 0;
+  double matrices = 12;
+  double solves = 500;
 };
-inline constexpr SolverUse use_of_linear_steps{12, 500};
-inline constexpr SolverUse use_of_newton_steps{150, 1000};
 inline constexpr SolverUse use_of_steady_state{1, 2};
 
 struct FactorSize {
-  double entries = 0;
+  double entries = 0;  // as they are kept, with the zeros of supernodes
   double flops = 0;
   bool possible = true;  // or too large for the library
 };
 
 struct SolverCost {
-  double seconds = 0;  // of one core
+  double seconds = 0;  // on two cores
   std::string why;     // it is this solver, in words
 };
 
 double cholesky_seconds(const FactorSize& factor, const SolverUse& use);
 double multigrid_seconds(std::int64_t entries, const SolverUse& use);  // entries of the matrix
 
-// The least that a factorisation of so many unknowns costs, its analysis included.
+// The least that factorisations of so many unknowns cost, their analysis included: without a look at the matrix, and by an
+// ordering of it (quick_ordering.h).
 double least_cholesky_seconds(double unknowns, const SolverUse& use);
+double least_cholesky_seconds(double unknowns, const FactorSize& quick, const SolverUse& use);
 
 // Which solver costs less: Cholesky or multigrid. Its reason compares them.
 struct ChosenSolver {

@@ -238,13 +238,4 @@ bool can_be_stabilised(const HeatModel& model) {
   return has_constant_properties(model) && !varies_in_time(model);
 }
 
-double stabilised_products(double stable, const TimeOptions& options) {
-  if (std::isinf(stable)) return 0;
-  // After a sudden start steps grow with time, each some fifth of what has passed, up to the output interval.
-  const double every = options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
-  const double grown = 1 / (1 - std::exp(-0.1));
-  const double steady = options.until / every;
-  return 2 * std::sqrt(0.2 * every / stable) * grown + 2 * std::sqrt(every / stable) * std::max(0.0, steady - 1);
-}
-
 }  // namespace scree::thermal

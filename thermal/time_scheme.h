@@ -63,9 +63,12 @@ class TimeScheme {
 };
 
 // All refer to the model. The implicit scheme, linear where the properties are constant.
-std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
-std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
-std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic);
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
+                                                 const SolverUse& use = {});
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
+                                               const SolverUse& use = {});
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
+                                                 const SolverUse& use = {});
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 // `stable`: stable_step() of the model, if it is known already [s].
@@ -76,8 +79,5 @@ std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::
 std::vector<NodeId> ledger_nodes(const HeatModel& model);
 
 bool can_be_stabilised(const HeatModel& model);
-
-// How many products with K a run of stabilised steps will take, about; from the stable step [s].
-double stabilised_products(double stable, const TimeOptions& options);
 
 }  // namespace scree::thermal

@@ -123,7 +123,7 @@ TEST(Multigrid, CannotBeAskedForWhereTheMatrixIsNotSymmetric) {
 TEST(CheaperSolver, IsCholeskyForAFewThousandUnknownsAndMultigridForAMillionOfASolid) {
   const auto chosen = [](double unknowns) {
     const FactorSize factor{6 * std::pow(unknowns, 4.0 / 3), 20 * unknowns * unknowns};
-    return cheaper_solver(factor, static_cast<std::int64_t>(15 * unknowns), use_of_linear_steps).solver;
+    return cheaper_solver(factor, static_cast<std::int64_t>(15 * unknowns), SolverUse{}).solver;
   };
   EXPECT_EQ(chosen(5e3), LinearSolver::cholesky);
   EXPECT_EQ(chosen(1e6), LinearSolver::multigrid);

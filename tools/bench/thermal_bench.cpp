@@ -103,7 +103,7 @@ struct Equations {
   Equations(std::int64_t cells, thermal::LinearSolver kind) : model(model_of(cube(cells, Grid::shaken))), free(model) {
     thermal::Drives drives(model);
     linear = thermal::HeatBalance(model).linearised(model.initial, drives.at(0));
-    solver.emplace(model, free, kind, thermal::use_of_linear_steps);
+    solver.emplace(model, free, kind, thermal::SolverUse{});
   }
   thermal::HeatModel model;
   thermal::FreeNodes free;

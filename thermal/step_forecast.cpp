@@ -1,0 +1,37 @@
+#include "thermal/step_forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree::thermal {
+
+namespace {
+
+// After a sudden start a step is this part of the time that has passed, from about the stable step up to the output interval
+// (README, "Which steps").
+constexpr double growth = 0.15;
+
+}  // namespace
+
+StepForecast forecast_steps(double stable, const TimeOptions& options) {
+  const double every = options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
+  const double later = std::max(0.0, options.until / every - 1);  // steps of an output interval each
+  const double span = std::max(1.0, every / stable);
+  StepForecast forecast;
+  forecast.steps = 1 + std::log(span) / growth + later;
+  forecast.lengths = 1 + std::log2(span);  // each is half or twice the one before
+  // A stabilised step h takes 2 sqrt(h/stable) products; those that grow make a geometric series.
+  const double longest = 2 * std::sqrt(every / stable);
+  forecast.products = longest * (std::sqrt(growth) / (1 - std::exp(-growth / 2)) + later);
+  return forecast;
+}
+
+SolverUse use_of_linear_steps(const StepForecast& forecast) {
+  return {forecast.lengths, 4 * forecast.steps};
+}
+
+SolverUse use_of_newton_steps(const StepForecast& forecast) {
+  return {forecast.steps, 7 * forecast.steps};
+}
+
+}  // namespace scree::thermal
