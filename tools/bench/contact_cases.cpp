@@ -26,15 +26,22 @@ void add_tetrahedron(mesh::BlockMesh<3>& mesh, Corners corners) {
   mesh.blocks.push_back({BodyId{0}, {node, node + 4}, {element, element + 1}});
 }
 
+// Where number `i` stands in rows and layers of `side`.
+Vector3d place_in_lattice(std::size_t i, std::size_t side) {
+  const std::size_t row = i / side;
+  const std::size_t layer = row / side;
+  return {static_cast<double>(i % side), static_cast<double>(row % side), static_cast<double>(layer)};
+}
+
 // Calls `add` with the six tetrahedra around the diagonal of every cell of the unit cube.
 template <class Add>
 void cut_cube(std::size_t faces, const Add& add) {
-  const int cells = std::max(1, static_cast<int>(std::lround(std::cbrt(static_cast<double>(faces) / 24))));
-  const double size = 1.0 / cells;
-  for (int cell = 0; cell < cells * cells * cells; ++cell) {
+  const auto cells = static_cast<std::size_t>(std::max(1L, std::lround(std::cbrt(static_cast<double>(faces) / 24))));
+  const double size = 1.0 / static_cast<double>(cells);
+  for (std::size_t cell = 0; cell < cells * cells * cells; ++cell) {
     std::array<int, 3> axes{0, 1, 2};
     do {
-      Vector3d at(cell % cells, cell / cells % cells, cell / cells / cells);
+      Vector3d at = place_in_lattice(cell, cells);
       Corners corners;
       corners[0] = size * at;
       for (int i = 0; i < 3; ++i) {
@@ -94,8 +101,8 @@ mesh::BlockMesh<3> pile_of_cubes() {
   std::vector<Pose> poses;
   for (int i = 0; i < 8; ++i) {
     const Eigen::AngleAxisd turn(0.4 * i, Vector3d(1, i, 2).normalized());
-    poses.push_back(
-        {Vector3d(0.22 * (i % 2) - 0.11, 0.22 * (i / 2 % 2) - 0.11, 0.2 + 0.36 * (i / 4)), Eigen::Quaterniond(turn)});
+    const Vector3d place = Vector3d(0.22, 0.22, 0.36).cwiseProduct(place_in_lattice(i, 2)) + Vector3d(-0.11, -0.11, 0.2);
+    poses.push_back({place, Eigen::Quaterniond(turn)});
   }
   cubes.arrangement = mesh::AtPoses{poses};
   return settled({plate(), cubes});
@@ -126,9 +133,7 @@ mesh::BlockMesh<3> side_by_side(const mesh::BlockMesh<3>& pile, std::size_t face
   mesh.bodies = pile.bodies;
   const auto copies = std::max<std::size_t>(1, faces / mesh::boundary_faces(pile).size());
   const auto row = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
-  for (std::size_t i = 0; i < copies; ++i) {
-    append(mesh, pile, {1.1 * static_cast<double>(i % row), 1.1 * static_cast<double>(i / row), 0});
-  }
+  for (std::size_t i = 0; i < copies; ++i) append(mesh, pile, 1.1 * place_in_lattice(i, row));
   return mesh;
 }
 
@@ -168,10 +173,10 @@ mesh::BlockMesh<3> jointed_cubes(std::size_t faces) {
   static const mesh::BlockMesh<3> cube = mesh::make_blocks<3>({box("cube", {0.2, 0.2, 0.2}, {0, 0, 0}, meshed_cube_size)});
   static const std::size_t cube_faces = mesh::boundary_faces(cube).size();
   const auto cubes = static_cast<double>(faces) / static_cast<double>(cube_faces);
-  const int side = std::max(1, static_cast<int>(std::lround(std::cbrt(cubes))));
+  const auto side = static_cast<std::size_t>(std::max(1L, std::lround(std::cbrt(cubes))));
   mesh::BlockMesh<3> mesh;
   mesh.bodies = cube.bodies;
-  for (int i = 0; i < side * side * side; ++i) append(mesh, cube, 0.2 * Vector3d(i % side, i / side % side, i / side / side));
+  for (std::size_t i = 0; i < side * side * side; ++i) append(mesh, cube, 0.2 * place_in_lattice(i, side));
   return mesh;
 }
 
