@@ -20,10 +20,9 @@ bool implicit_costs_more(double seconds, const HeatModel& model, LinearSolver so
   const double multigrid = multigrid_seconds(model.conductance.nonZeros(), use);
   if (solver == LinearSolver::multigrid) return multigrid > seconds;
   if (solver == LinearSolver::automatic && multigrid <= seconds) return false;
-  const FreeNodes free(model);
-  const auto unknowns = static_cast<double>(free.size());
+  const auto unknowns = static_cast<double>(model.capacity.size()) - static_cast<double>(model.fixed_nodes.size());
   if (least_cholesky_seconds(unknowns, use) > seconds) return true;
-  const FactorSize quick = quick_factor_size(free.lower_block(model.conductance));
+  const FactorSize quick = quick_factor_size(FreeNodes(model).lower_block(model.conductance));
   return quick.possible && least_cholesky_seconds(unknowns, quick, use) > seconds;
 }
 
