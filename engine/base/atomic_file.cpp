@@ -24,6 +24,8 @@ void flush_to_disk(const std::filesystem::path& temporary, const std::filesystem
   if (descriptor < 0) fail(file, std::strerror(errno));
   const int status = ::fsync(descriptor);
   const int reason = errno;
+  // Its pages serve the next file, or the system would have to find new ones for every frame: half of what writing one cost.
+  ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED);
   ::close(descriptor);
   if (status != 0) fail(file, std::strerror(reason));
 }
@@ -48,10 +50,14 @@ void write_atomically(const std::filesystem::path& file, const std::function<voi
   }
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
+void write_text(const std::filesystem::path& file, std::string_view text) {
+  write_text(file, {&text, 1});
+}
+
+void write_text(const std::filesystem::path& file, std::span<const std::string_view> parts) {
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
+    for (const std::string_view part : parts) stream << part;
     stream.flush();
     if (!stream) fail(file, std::strerror(errno));
   });

@@ -53,23 +53,24 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
 
 void Series::share(const Grid& grid, const std::vector<Array>& cells) {
   shared_grid_ = encoded(grid);
-  shared_cells_ = encoded(cells);
+  encode(cells, shared_cells_);
 }
 
 void Series::write(const Frame& frame) {
-  append(frame.time, vtu_text(shared_grid_, encoded(frame.points), encoded(frame.cells) + shared_cells_, frame.time));
+  append(frame, shared_grid_, shared_cells_);
 }
 
 void Series::write(const Grid& grid, const Frame& frame) {
-  append(frame.time, vtu_text(encoded(grid), encoded(frame.points), encoded(frame.cells), frame.time));
+  append(frame, encoded(grid), {});
 }
 
-// Written to memory first: write_text notices a full disk even at the last byte.
-void Series::append(double time, const std::string& vtu) {
-  SCREE_EXPECT(entries_.empty() || time > entries_.back().time);
-  SeriesEntry entry{time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
+void Series::append(const Frame& frame, const EncodedGrid& grid, std::string_view shared_cells) {
+  SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
+  SeriesEntry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
   const fs::path file = directory_ / entry.file;
-  write_text(file, vtu);
+  encode(frame.points, point_arrays_);
+  encode(frame.cells, cell_arrays_);
+  write_vtu(file, grid, point_arrays_, cell_arrays_, shared_cells, frame.time);
   entries_.push_back(std::move(entry));
   try {
     write_index(index_, entries_);

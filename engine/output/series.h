@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/output/series_index.h"
@@ -40,8 +41,9 @@ class Series {
   std::vector<SeriesEntry> entries_;
   EncodedGrid shared_grid_;
   std::string shared_cells_;
+  std::string point_arrays_, cell_arrays_;  // of the frame that is written; they keep their memory for the next
 
-  void append(double time, const std::string& vtu);
+  void append(const Frame& frame, const EncodedGrid& grid, std::string_view shared_cells);
 };
 
 }  // namespace scree::output

@@ -1,12 +1,15 @@
 #include "engine/output/vtu_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 #include <lz4.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 
 namespace scree::output {
@@ -59,19 +62,20 @@ void append_base64(const unsigned char* bytes, std::size_t count, std::string& t
 void append_values(const void* values, std::size_t bytes, std::string& text) {
   const std::size_t blocks = (bytes + bytes_in_block - 1) / bytes_in_block;
   std::vector<std::uint64_t> header{blocks, bytes_in_block, bytes % bytes_in_block};
-  std::vector<char> compressed(blocks * static_cast<std::size_t>(LZ4_compressBound(bytes_in_block)));
+  const std::size_t room = blocks * static_cast<std::size_t>(LZ4_compressBound(bytes_in_block));
+  const auto compressed = std::make_unique_for_overwrite<char[]>(room);
   std::size_t end = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     const auto* from = static_cast<const unsigned char*>(values) + block * bytes_in_block;
     const std::size_t size = std::min(bytes_in_block, bytes - block * bytes_in_block);
-    const int packed = LZ4_compress_default(reinterpret_cast<const char*>(from), compressed.data() + end,
-                                            static_cast<int>(size), static_cast<int>(compressed.size() - end));
+    const int packed = LZ4_compress_default(reinterpret_cast<const char*>(from), compressed.get() + end, static_cast<int>(size),
+                                            static_cast<int>(room - end));
     SCREE_ENSURE(packed > 0);
     header.push_back(static_cast<std::uint64_t>(packed));
     end += static_cast<std::size_t>(packed);
   }
   append_base64(reinterpret_cast<const unsigned char*>(header.data()), header.size() * sizeof header[0], text);
-  append_base64(reinterpret_cast<const unsigned char*>(compressed.data()), end, text);
+  append_base64(reinterpret_cast<const unsigned char*>(compressed.get()), end, text);
 }
 
 template <class T>
@@ -91,13 +95,12 @@ void append_array(const std::string& name, int components, const T* values, std:
 
 }  // namespace
 
-std::string encoded(const std::vector<Array>& arrays) {
-  std::string text;
+void encode(const std::vector<Array>& arrays, std::string& text) {
+  text.clear();
   for (const Array& array : arrays) {
     std::visit([&](const auto& values) { append_array(array.name, array.components, values.data(), values.size(), text); },
                array.values);
   }
-  return text;
 }
 
 EncodedGrid encoded(const Grid& grid) {
@@ -121,22 +124,20 @@ EncodedGrid encoded(const Grid& grid) {
   return made;
 }
 
-std::string vtu_text(const EncodedGrid& grid, const std::string& point_arrays, const std::string& cell_arrays, double time) {
-  std::string text;
-  text.reserve(1024 + grid.text.size() + point_arrays.size() + cell_arrays.size());
-  text +=
+void write_vtu(const std::filesystem::path& file, const EncodedGrid& grid, std::string_view point_arrays,
+               std::string_view cell_arrays, std::string_view more_cell_arrays, double time) {
+  std::string head =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
       "compressor=\"vtkLZ4DataCompressor\">\n<UnstructuredGrid>\n";
   // ParaView shows this as the time of a .vtu opened on its own.
-  text += R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="binary">)";
-  append_values(&time, sizeof time, text);
-  text += "</DataArray></FieldData>\n";
-  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points, grid.cells);
-  text += "<PointData>\n" + point_arrays + "</PointData>\n<CellData>\n" + cell_arrays + "</CellData>\n";
-  text += grid.text;
-  text += "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  return text;
+  head += R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="binary">)";
+  append_values(&time, sizeof time, head);
+  head += "</DataArray></FieldData>\n";
+  head += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", grid.points, grid.cells);
+  write_text(file,
+             std::array<std::string_view, 8>{head, point_arrays, "</PointData>\n<CellData>\n", cell_arrays, more_cell_arrays,
+                                             "</CellData>\n", grid.text, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"});
 }
 
 }  // namespace scree::output

@@ -4,15 +4,17 @@
 // block if it is not full, compressed bytes of each block] in UInt64, then as base64 of the blocks, compressed by LZ4.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/output/frame.h"
 
 namespace scree::output {
 
-// One `DataArray` each.
-std::string encoded(const std::vector<Array>& arrays);
+// One `DataArray` each, in place of what `text` held.
+void encode(const std::vector<Array>& arrays, std::string& text);
 
 struct EncodedGrid {
   std::size_t points = 0;
@@ -21,7 +23,9 @@ struct EncodedGrid {
 };
 EncodedGrid encoded(const Grid& grid);
 
-// The arrays of points and of cells as encoded() makes them.
-std::string vtu_text(const EncodedGrid& grid, const std::string& point_arrays, const std::string& cell_arrays, double time);
+// The arrays of points and of cells as encode() makes them. Written part by part: putting together some megabytes first would
+// cost more than all else of a frame. Throws RunError, and leaves no file.
+void write_vtu(const std::filesystem::path& file, const EncodedGrid& grid, std::string_view point_arrays,
+               std::string_view cell_arrays, std::string_view more_cell_arrays, double time);
 
 }  // namespace scree::output
