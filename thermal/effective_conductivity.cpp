@@ -33,6 +33,8 @@ class Sample {
       throw InputError(problem("heat.effective_conductivity", "a material whose properties depend on temperature",
                                "must have constant properties", "Give the values at the temperature of interest"));
     }
+    rows_.resize(static_cast<std::size_t>(model.capacity.size()));
+    for (const NodeId node : mesh.nodes.ids()) rows_[model.rows[node].index()] = node;
     if (!inside_.empty()) return;
     throw InputError(problem("heat.effective_conductivity", "a window", "must hold the centre of at least one element"));
   }
@@ -66,27 +68,27 @@ class Sample {
     return above_low(node, axis) <= rounding_ || below_high(node, axis) <= rounding_;
   }
 
-  // Holds the nodes that `held` chooses, and one node of every group of blocks that would hold none.
+  // Holds the rows whose node `held` chooses, and one row of every group of blocks that would hold none.
   template <class Held>
   void hold(const Held& held) {
-    mesh::DisjointSets groups(mesh_.nodes.size());
+    mesh::DisjointSets groups(rows_.size());
     for (int column = 0; column < model_.conductance.outerSize(); ++column) {
       for (SparseMatrix::InnerIterator entry(model_.conductance, column); entry; ++entry) {
         if (entry.value() != 0) groups.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
       }
     }
-    std::vector<char> grounded(mesh_.nodes.size(), 0);
-    std::vector<char> fixed(mesh_.nodes.size(), 0);
-    for (const NodeId node : mesh_.nodes.ids()) {
-      fixed[node.index()] = held(node) ? 1 : 0;
-      if (held(node)) grounded[groups.root(node.index())] = 1;
+    std::vector<char> grounded(rows_.size(), 0);
+    std::vector<char> fixed(rows_.size(), 0);
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      fixed[row] = held(rows_[row]) ? 1 : 0;
+      if (fixed[row] != 0) grounded[groups.root(row)] = 1;
     }
     model_.fixed_nodes.clear();
-    for (const NodeId node : mesh_.nodes.ids()) {
-      char& has_ground = grounded[groups.root(node.index())];
-      if (fixed[node.index()] == 0 && has_ground != 0) continue;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      char& has_ground = grounded[groups.root(row)];
+      if (fixed[row] == 0 && has_ground != 0) continue;
       has_ground = 1;
-      model_.fixed_nodes.push_back(node);
+      model_.fixed_nodes.emplace_back(row);
     }
     free_.emplace(model_);
     solver_.emplace(model_, *free_, LinearSolver::automatic, use_of_steady_state);
@@ -105,15 +107,15 @@ class Sample {
 
   // Mean over the window of the flux, voids at 0 [W/m2].
   [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
-    const auto fluxes = element_fluxes(mesh_, materials_, temperature);
+    const auto fluxes = element_fluxes(mesh_, materials_, model_.rows.to_nodes(temperature));
     Point<dim> sum = Point<dim>::Zero();
     for (const ElementId e : inside_) sum += mesh::element_volume(mesh_, e) * fluxes[e.index()];
     return sum / window_.volume();
   }
 
   [[nodiscard]] Eigen::VectorXd coordinates(int axis) const {
-    Eigen::VectorXd values(static_cast<Eigen::Index>(mesh_.nodes.size()));
-    for (const NodeId node : mesh_.nodes.ids()) values[node.value()] = above_low(node, axis);
+    Eigen::VectorXd values(model_.capacity.size());
+    for (std::size_t row = 0; row < rows_.size(); ++row) values[static_cast<Eigen::Index>(row)] = above_low(rows_[row], axis);
     return values;
   }
 
@@ -178,12 +180,12 @@ class Sample {
       Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.capacity.size());
       for (const Side& side : *found) {
         if (side.axis != axis) continue;
-        for (const NodeId node : faces[side.face].nodes) load[node.value()] -= side.sign * side.area / dim;
+        for (const NodeId node : faces[side.face].nodes) load[model_.rows[node].value()] -= side.sign * side.area / dim;
       }
       const Eigen::VectorXd temperature = solve(Eigen::VectorXd::Zero(load.size()), load);
       for (const Side& side : *found) {
         double mean = 0;
-        for (const NodeId node : faces[side.face].nodes) mean += temperature[node.value()] / dim;
+        for (const NodeId node : faces[side.face].nodes) mean += temperature[model_.rows[node].value()] / dim;
         resistivity(side.axis, axis) -= side.sign * side.area * mean / window_.volume();
       }
     }
@@ -196,6 +198,7 @@ class Sample {
   Aabb<dim> window_;
   double rounding_;  // [m]
   std::vector<ElementId> inside_;
+  std::vector<NodeId> rows_;  // a node of each row: tied ones share one (tied_nodes.h)
   std::optional<FreeNodes> free_;
   std::optional<HeatSolver> solver_;
 };

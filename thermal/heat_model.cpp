@@ -12,8 +12,9 @@
 #include "thermal/choose_lumped.h"
 #include "thermal/fourth_order.h"
 #include "thermal/joint_conduction.h"
-#include "thermal/lump.h"
 #include "thermal/problems.h"
+#include "thermal/share_rows.h"
+#include "thermal/tied_nodes.h"
 
 namespace scree::thermal {
 
@@ -190,7 +191,10 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   apply_boundaries(mesh, options, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
   assemble_blocks(mesh, materials, options.space_order, model).swap(model.conductance);
-  if (model.lumped) lump(mesh, materials, model);
+  // Fourth order knows no neighbours but its own, and a node of two materials no one curve.
+  std::optional<Table<NodeId, NodeId>> tied;
+  if (!model.varying && options.space_order == SpaceOrder::second) tied = tied_nodes(mesh, contacts, joints, model);
+  if (model.lumped || tied) share_rows(mesh, materials, tied, model);
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;
 }

@@ -58,8 +58,8 @@ struct VaryingProperties {
   SparseMatrix unit_conductance;
 };
 
-// One row per node of the mesh, in its order, but one for all nodes of a lumped block; NodeId counts rows here. K is symmetric
-// with zero row sums.
+// One row per node of the mesh, in its order, but one for all nodes of a lumped block and one for nodes that are tied; NodeId
+// counts rows here. K is symmetric with zero row sums.
 struct HeatModel {
   NodeMap rows;                                 // of the mesh's nodes
   Table<NodeId, BlockId> blocks;                // of each row, for messages
@@ -77,6 +77,7 @@ struct HeatModel {
   // Nothing if no property depends on temperature; `capacity` is that of the initial temperatures otherwise.
   std::optional<VaryingProperties> varying;
   std::optional<LumpedBlocks> lumped;  // nothing if every block is meshed
+  std::size_t tied_nodes = 0;          // those that are one with an earlier node (tied_nodes.h)
   // For messages.
   Table<BlockId, BodyId> bodies;
   Table<BodyId, std::string> body_names;

@@ -6,10 +6,23 @@
 #include "thermal/incidence.h"
 #include "thermal/row_assembly.h"
 #include "thermal/sparse_sum.h"
+#include "thermal/tied_nodes.h"
 
 namespace scree::thermal {
 
 namespace {
+
+// Where tied nodes let both sides have a row, its weight is the sum.
+template <int dim>
+void join_sides(TemperatureDifference<dim>& difference) {
+  for (int i = 0; i < dim; ++i) {
+    for (int other = dim; other < 2 * dim; ++other) {
+      if (difference.weights[other] == 0 || difference.nodes[other] != difference.nodes[i]) continue;
+      difference.weights[i] += difference.weights[other];
+      difference.weights[other] = 0;
+    }
+  }
+}
 
 // The same difference between rows of the model: all of a lumped side's weight is on its one row.
 template <int dim>
@@ -28,8 +41,33 @@ TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, c
       }
     }
   }
+  join_sides(difference);
   return difference;
 }
+
+// A perfect term between rows of the model: nodes that share one are one entry.
+template <int dim>
+struct RowTerm {
+  int size = 0;
+  std::array<int, PerfectTerm<dim>::corners> rows{};
+  std::array<double, PerfectTerm<dim>::corners> jump{};
+  std::array<double, PerfectTerm<dim>::corners> flux{};
+
+  RowTerm(const PerfectTerm<dim>& term, const NodeMap& map) {
+    for (int i = 0; i < term.corners; ++i) {
+      const int here = find(map[term.nodes[i]].value());
+      rows[here] = map[term.nodes[i]].value();
+      jump[here] += term.jump[i];
+      flux[here] += term.flux[i];
+      size = std::max(size, here + 1);
+    }
+  }
+
+  // Where the row stands, or would stand.
+  [[nodiscard]] int find(int row) const {
+    return static_cast<int>(std::find(rows.begin(), rows.begin() + size, row) - rows.begin());
+  }
+};
 
 // What the contacts add to the rows of K: g w w^T of each, less w q^T + q w^T of perfect ones.
 template <int dim>
@@ -73,10 +111,10 @@ class JointRows {
 
   template <class Visit>
   void visit_perfect(const Visit& visit) const {
-    for (std::size_t term = 0; term < conduction_.perfect.size(); ++term) {
-      for (const NodeId node : conduction_.perfect[term].nodes) {
-        visit(rows_[node].value(), static_cast<std::uint32_t>(term));
-      }
+    for (std::size_t t = 0; t < conduction_.perfect.size(); ++t) {
+      if (is_tied(contacts_.contacts[conduction_.perfect[t].contact], rows_)) continue;
+      const RowTerm<dim> term(conduction_.perfect[t], rows_);
+      for (int i = 0; i < term.size; ++i) visit(term.rows[i], static_cast<std::uint32_t>(t));
     }
   }
 
@@ -91,16 +129,16 @@ class JointRows {
   }
 
   // The diagonal is minus the sum of the others, so that the row sums to zero to the last bit of what is entered.
-  void add_perfect(const PerfectTerm<dim>& term, int row, RowSum& sum) const {
-    const double conductance = conduction_.conductances[term.contact];
-    int here = 0;
-    while (rows_[term.nodes[here]].value() != row) ++here;
-    for (int i = 0; i < term.corners; ++i) {
+  void add_perfect(const PerfectTerm<dim>& of_nodes, int row, RowSum& sum) const {
+    const double conductance = conduction_.conductances[of_nodes.contact];
+    const RowTerm<dim> term(of_nodes, rows_);
+    const int here = term.find(row);
+    for (int i = 0; i < term.size; ++i) {
       if (i == here) continue;
       const double entry =
           conductance * (term.jump[here] * term.jump[i]) - (term.jump[here] * term.flux[i] + term.jump[i] * term.flux[here]);
       if (entry == 0) continue;
-      sum.add(rows_[term.nodes[i]].value(), entry);
+      sum.add(term.rows[i], entry);
       sum.add(row, -entry);
     }
   }

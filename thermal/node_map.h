@@ -1,5 +1,5 @@
-// Which row of the heat model stands for a node of the mesh: its own, unless the node's block is lumped; then all nodes of the
-// block share one row.
+// Which row of the heat model stands for a node of the mesh: its own, unless the node's block is lumped or the node is tied to
+// others (tied_nodes.h): then they share one row.
 #pragma once
 
 #include <utility>

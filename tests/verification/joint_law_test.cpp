@@ -127,7 +127,7 @@ double steady_flow(const mesh::BlockMesh<2>& mesh, const JointOptions& joint, st
     if (mesh.nodes[node].x() < -0.1 + 1e-9) held[node] = 400;
     if (mesh.nodes[node].x() > 0.1 - 1e-9) held[node] = 300;
   }
-  const Eigen::VectorXd temperature = test::steady(model.conductance, held);
+  const Eigen::VectorXd temperature = test::steady(model, held);
   const auto flows = contact_flows(contacts, joint_conduction(mesh, materials, contacts, joint), temperature, joint.form);
   report = joint_reports(mesh, materials, contacts, joint, flows);
   return report.front().flow;

@@ -24,13 +24,13 @@ JointOptions joint_of(const JointLaw& law, std::optional<contact::Model> model =
   return joint;
 }
 
-// Boxes beside and on each other, meshed 2, 3 and 4 cells across: an L of three interfaces of which none matches, meeting in a
-// line.
+// Boxes beside and on each other, meshed 2, 3 and 5 cells across: an L of three interfaces of which none matches, meeting in a
+// line. As blocks of one element each, they match inside the boxes.
 template <int dim>
 mesh::BlockMesh<dim> three_boxes(bool block_per_element) {
   std::vector<test::Slab<dim>> boxes(3);
   for (int i = 0; i < 3; ++i) {
-    boxes[i].cells.fill(2 + i);
+    boxes[i].cells.fill(std::array{2, 3, 5}[i]);
     boxes[i].block_per_element = block_per_element;
   }
   boxes[1].low[0] = 1;
@@ -62,7 +62,7 @@ double largest_error(const mesh::BlockMesh<dim>& mesh, const JointOptions& joint
   HeatOptions options = test::options_for(mesh, 300);
   options.joint = joint;
   const HeatModel model = make_heat_model(mesh, test::rock_only(), contacts, options);
-  const Eigen::VectorXd temperature = test::steady(model.conductance, held_around<dim>(mesh));
+  const Eigen::VectorXd temperature = test::steady(model, held_around<dim>(mesh));
   double largest = 0;
   for (const NodeId node : mesh.nodes.ids()) {
     largest = std::max(largest, std::abs(temperature[node.value()] - linear<dim>(mesh.nodes[node])));
@@ -102,7 +102,7 @@ TYPED_TEST(Patch, SemiSpringsComeToTheLinearFieldAsBetaGrowsAndLiteralOnesDoNot)
       EXPECT_GT(error(10), 0.1);
       EXPECT_NEAR(error(1e4) / error(1e5), 10, 1.5);
     } else {
-      EXPECT_GT(error(1e5), 0.04);
+      EXPECT_GT(error(1e5), 0.02);
     }
   }
 }
@@ -128,7 +128,7 @@ TYPED_TEST(Patch, PerfectJointsPassAFluxBetweenUnlikeMaterials) {
     if (mesh.nodes[node][0] < 1e-9) held[node] = 400;
     if (mesh.nodes[node][0] > 2 - 1e-9) held[node] = 300;
   }
-  const Eigen::VectorXd temperature = test::steady(model.conductance, held);
+  const Eigen::VectorXd temperature = test::steady(model, held);
   const double flux = 100 / (1 / 4.0 + 1 / 4000.0);
   for (const NodeId node : mesh.nodes.ids()) {
     const double x = mesh.nodes[node][0];

@@ -45,4 +45,13 @@ inline Eigen::VectorXd steady(const SparseMatrix& conductance, const Held& held,
   return temperature;
 }
 
+// The same for the nodes of the mesh, some of which may share a row of the model.
+inline Eigen::VectorXd steady(const HeatModel& model, const Held& held, const std::map<NodeId, double>& load = {}) {
+  Held held_rows;
+  for (const auto& [node, value] : held) held_rows[model.rows[node]] = value;
+  std::map<NodeId, double> load_rows;
+  for (const auto& [node, flow] : load) load_rows[model.rows[node]] += flow;
+  return model.rows.to_nodes(steady(model.conductance, held_rows, load_rows));
+}
+
 }  // namespace scree::thermal::test

@@ -95,6 +95,11 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
     });
   }
   if (const auto said = lumped_words(*outcome.model)) context.progress.note("heat: " + *said);
+  if (const std::size_t tied = outcome.model->tied_nodes; tied > 0) {
+    context.progress.note(
+        fmt::format("heat: faces of perfect joints match: {} of {} nodes are one with others, {} temperatures", tied,
+                    outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
+  }
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
     scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
     return true;

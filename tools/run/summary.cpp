@@ -193,6 +193,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                                           {"pairs", principle.pairs},
                                           {"reversed", principle.reversed},
                                           {"largest", principle.largest}};
+  if (outcome.model->tied_nodes > 0) summary["heat"]["tied_nodes"] = outcome.model->tied_nodes;
   if (outcome.model->lumped) summary["heat"]["lumped_blocks"] = lumped_json(*outcome.model, state.lumping);
   if (const auto beyond = thermal::overshoot(*outcome.model, state)) summary["heat"]["overshoot"] = *beyond;
   if (outcome.space_error) {

@@ -1,0 +1,92 @@
+#include "thermal/tied_nodes.h"
+
+#include <array>
+#include <vector>
+
+#include "engine/mesh/disjoint_sets.h"
+
+namespace scree::thermal {
+
+namespace {
+
+constexpr double same_place = 1e-6;  // of the contact's characteristic length
+
+// Which of the target's corners lies on each of the owner's; nothing unless all do.
+template <int dim>
+std::optional<std::array<NodeId, dim>> matching_corners(const mesh::BlockMesh<dim>& mesh,
+                                                        const contact::Contact<dim>& contact) {
+  std::array<NodeId, dim> matching;
+  for (int i = 0; i < dim; ++i) {
+    const Point<dim>& corner = mesh.nodes[contact.on_owner.nodes[i]];
+    const auto& others = contact.on_target.nodes;
+    const auto on_it = std::find_if(others.begin(), others.end(), [&](NodeId other) {
+      return (mesh.nodes[other] - corner).norm() <= same_place * contact.length;
+    });
+    if (on_it == others.end()) return std::nullopt;
+    matching[i] = *on_it;
+  }
+  return matching;
+}
+
+// Nodes that are one, and the condition that holds them, if any does.
+class Ties {
+ public:
+  Ties(std::size_t nodes, const HeatModel& model) : sets_(nodes), hold_(nodes, -1) {
+    for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) hold_[model.fixed_nodes[i].index()] = model.fixed_hold[i];
+  }
+
+  // Whether no two conditions would hold them then.
+  [[nodiscard]] bool may_be_one(NodeId a, NodeId b) {
+    const int hold_a = hold_[sets_.root(a.index())], hold_b = hold_[sets_.root(b.index())];
+    return hold_a < 0 || hold_b < 0 || hold_a == hold_b;
+  }
+
+  void make_one(NodeId a, NodeId b) {
+    const int hold = std::max(hold_[sets_.root(a.index())], hold_[sets_.root(b.index())]);
+    sets_.join(a.index(), b.index());
+    hold_[sets_.root(a.index())] = hold;
+  }
+
+  [[nodiscard]] NodeId set_of(NodeId node) { return NodeId(sets_.root(node.index())); }
+
+ private:
+  mesh::DisjointSets sets_;
+  std::vector<int> hold_;  // of each set, at its root
+};
+
+}  // namespace
+
+template <int dim>
+std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts,
+                                                const JointConduction<dim>& joints, const HeatModel& model) {
+  if (joints.perfect.empty()) return std::nullopt;
+  Ties ties(mesh.nodes.size(), model);
+  bool any = false;
+  for (const PerfectTerm<dim>& term : joints.perfect) {
+    const contact::Contact<dim>& contact = contacts.contacts[term.contact];
+    const auto matching = matching_corners(mesh, contact);
+    if (!matching) continue;
+    const auto& corners = contact.on_owner.nodes;
+    bool one = true;
+    for (int i = 0; i < dim; ++i) one = one && ties.may_be_one(corners[i], (*matching)[i]);
+    if (!one) continue;
+    any = true;
+    for (int i = 0; i < dim; ++i) ties.make_one(corners[i], (*matching)[i]);
+  }
+  if (!any) return std::nullopt;
+  Table<NodeId, NodeId> first_of_set(mesh.nodes.size());
+  Table<NodeId, NodeId> tied(mesh.nodes.size());
+  for (const NodeId node : mesh.nodes.ids()) {
+    NodeId& first = first_of_set[ties.set_of(node)];
+    if (!first.valid()) first = node;
+    tied[node] = first;
+  }
+  return tied;
+}
+
+template std::optional<Table<NodeId, NodeId>> tied_nodes<2>(const mesh::BlockMesh<2>&, const contact::ContactSet<2>&,
+                                                            const JointConduction<2>&, const HeatModel&);
+template std::optional<Table<NodeId, NodeId>> tied_nodes<3>(const mesh::BlockMesh<3>&, const contact::ContactSet<3>&,
+                                                            const JointConduction<3>&, const HeatModel&);
+
+}  // namespace scree::thermal
