@@ -32,8 +32,10 @@ struct ContactOptions {
 template <int dim>
 ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options);
 
-// The true area in which the blocks of each two bodies (first <= second) lie on each other, whatever their model [m2].
+// The true area in which the blocks of each two bodies (first <= second) lie on each other, where they touch, whatever their
+// model [m2]: of the overlaps that find_contacts() found, and for pairs with semi-springs by a search of its own.
 template <int dim>
-std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance);
+std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, const ContactSet<dim>& contacts,
+                                                          const ContactOptions& options);
 
 }  // namespace scree::contact

@@ -174,24 +174,38 @@ Contacts<dim> overlap_contacts(const Surface<dim>& surface, const ContactOptions
 }
 
 template <int dim>
-std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, double tolerance) {
-  if (mesh.blocks.size() < 2) return {};
-  const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {tolerance, 0}));
+std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<dim>& mesh, const ContactSet<dim>& contacts,
+                                                          const ContactOptions& options) {
+  const auto bodies_of = [&](BlockId a, BlockId b) -> std::pair<BodyId, BodyId> {
+    return std::minmax(mesh.blocks[a].body, mesh.blocks[b].body);
+  };
+  std::map<std::pair<BodyId, BodyId>, double> areas;
+  bool searched = true;
+  for (const Contact<dim>& contact : contacts.contacts) {
+    if (contact.kind == Kind::overlap) {
+      areas[bodies_of(contact.owner, contact.target)] += contact.area;
+    } else {
+      searched = false;
+    }
+  }
+  if (searched) return areas;
+  const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<std::vector<Share>>(
-      surface, tolerance, [](BodyId, BodyId) { return true; },
+      surface, options.tolerance, [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; },
       [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Share>& into) {
-        const auto body_of = [&](FaceId face) { return mesh.blocks[surface.faces[face].block].body; };
-        for (const auto& point : points) into.push_back({std::minmax(body_of(first), body_of(second)), point.area});
+        for (const auto& point : points) {
+          into.push_back({bodies_of(surface.faces[first].block, surface.faces[second].block), point.area});
+        }
       });
-  std::map<std::pair<BodyId, BodyId>, double> areas;
   for (const auto& [bodies, area] : shares) areas[bodies] += area;
   return areas;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                              \
-  template Contacts<dim> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&); \
-  template std::map<std::pair<BodyId, BodyId>, double> overlap_areas<dim>(const mesh::BlockMesh<dim>&, double);
+#define SCREE_INSTANTIATE(dim)                                                                                                 \
+  template Contacts<dim> overlap_contacts<dim>(const Surface<dim>&, const ContactOptions&);                                    \
+  template std::map<std::pair<BodyId, BodyId>, double> overlap_areas<dim>(const mesh::BlockMesh<dim>&, const ContactSet<dim>&, \
+                                                                          const ContactOptions&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contact/find_contacts.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"
 
@@ -107,6 +108,11 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   if (outcome.model->lumped) {
     context.progress.note(
         fmt::format("heat: lumping blocks makes an error of some {:.2g} K (estimated)", outcome.state.lumping.largest));
+  }
+  if (const auto& contacts = outcome.pile.contacts; !contacts.contacts.empty()) {
+    outcome.overlap_areas = context.stage("areas", fmt::format("{} contacts", contacts.contacts.size()), [&] {
+      return contact::overlap_areas(outcome.pile.mesh, contacts, search_of(scene, outcome.pile));
+    });
   }
   const auto& probes = outcome.pile.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {

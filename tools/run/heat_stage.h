@@ -1,9 +1,11 @@
 // From a frozen packing to temperatures in time: contacts, the heat balance, the time loop and its files.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "thermal/effective_conductivity.h"
 #include "thermal/heat_run.h"
@@ -18,6 +20,8 @@ struct HeatOutcome {
   HeatedPile<dim> pile;
   std::shared_ptr<const thermal::HeatModel> model;
   thermal::HeatState state;  // at the end
+  // Where two bodies' blocks lie on each other, if any contact was found [m2].
+  std::map<std::pair<BodyId, BodyId>, double> overlap_areas;
   std::string solver;
   std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, over all times [K]
   std::optional<thermal::SpaceError> space_error;                // at the end, if the user asks for it

@@ -45,10 +45,15 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
 }
 
 template <int dim>
+contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile) {
+  return thermal::contact_search(scene.heat->joint, pile.mesh.bodies, *scene.contact);
+}
+
+template <int dim>
 void join(const Scene& scene, HeatedPile<dim>& pile) {
   const thermal::JointOptions& joint = scene.heat->joint;
   if (pile.mesh.blocks.size() > 1) {
-    pile.contacts = contact::find_contacts(pile.mesh, thermal::contact_search(joint, pile.mesh.bodies, *scene.contact));
+    pile.contacts = contact::find_contacts(pile.mesh, search_of(scene, pile));
   }
   thermal::check_rules(joint, pile.mesh, pile.contacts);
   pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint);
@@ -66,6 +71,7 @@ std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const H
 #define SCREE_INSTANTIATE(dim)                                                               \
   template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,      \
                                             const std::function<void(const std::string&)>&); \
+  template contact::ContactOptions search_of<dim>(const Scene&, const HeatedPile<dim>&);     \
   template void join<dim>(const Scene&, HeatedPile<dim>&);                                   \
   template std::shared_ptr<const thermal::HeatModel> heat_model<dim>(const Scene&, const HeatedPile<dim>&);
 SCREE_INSTANTIATE(2)

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_set.h"
+#include "contact/find_contacts.h"
 #include "engine/output/probes.h"
 #include "engine/packing/packing.h"
 #include "thermal/heat_model.h"
@@ -30,6 +30,10 @@ struct HeatedPile {
 template <int dim>
 HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
                             const std::function<void(const std::string&)>& note = {});
+
+// How its bodies' contacts are looked for.
+template <int dim>
+contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile);
 
 // Finds where its blocks touch, and what conducts there.
 template <int dim>

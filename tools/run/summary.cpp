@@ -69,11 +69,10 @@ Json joints_json(const HeatOutcome<dim>& outcome, const Scene& scene) {
   const thermal::JointOptions& joint = scene.heat->joint;
   const auto temperature = outcome.model->rows.to_nodes(outcome.state.temperature);
   const auto flows = thermal::contact_flows(pile.contacts, pile.joints, temperature, joint.form);
-  const auto areas = contact::overlap_areas(pile.mesh, scene.contact->tolerance);
   Json joints = Json::array();
   for (const auto& report : thermal::joint_reports(pile.mesh, scene.materials, pile.contacts, joint, flows)) {
-    const auto area = areas.find({report.first, report.second});
-    const double overlap_area = area == areas.end() ? 0 : area->second;
+    const auto area = outcome.overlap_areas.find({report.first, report.second});
+    const double overlap_area = area == outcome.overlap_areas.end() ? 0 : area->second;
     joints.push_back({{"first", pile.mesh.bodies[report.first].name},
                       {"second", pile.mesh.bodies[report.second].name},
                       {"law", report.law},
