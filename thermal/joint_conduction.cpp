@@ -16,6 +16,7 @@ namespace {
 template <int dim>
 void join_sides(TemperatureDifference<dim>& difference) {
   for (int i = 0; i < dim; ++i) {
+    if (difference.weights[i] == 0) continue;
     for (int other = dim; other < 2 * dim; ++other) {
       if (difference.weights[other] == 0 || difference.nodes[other] != difference.nodes[i]) continue;
       difference.weights[i] += difference.weights[other];
