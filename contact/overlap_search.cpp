@@ -180,15 +180,15 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
     return std::minmax(mesh.blocks[a].body, mesh.blocks[b].body);
   };
   std::map<std::pair<BodyId, BodyId>, double> areas;
-  bool searched = true;
+  bool any_semi_springs = false;
   for (const Contact<dim>& contact : contacts.contacts) {
     if (contact.kind == Kind::overlap) {
       areas[bodies_of(contact.owner, contact.target)] += contact.area;
     } else {
-      searched = false;
+      any_semi_springs = true;
     }
   }
-  if (searched) return areas;
+  if (!any_semi_springs) return areas;
   const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<std::vector<Share>>(

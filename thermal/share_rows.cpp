@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/base/check.h"
 #include "engine/mesh/cells.h"
@@ -77,16 +78,17 @@ Eigen::VectorXd summed(const Eigen::VectorXd& of_nodes, const Numbering& numberi
 
 // The mean by capacity of each row's nodes, as a difference to the first of them, so that equal temperatures have it to the
 // bit.
-Eigen::VectorXd mean(const Eigen::VectorXd& of_nodes, const Eigen::VectorXd& capacity, const Numbering& numbering) {
+Eigen::VectorXd mean(const Eigen::VectorXd& of_nodes, const Eigen::VectorXd& capacity, const Eigen::VectorXd& row_capacity,
+                     const Numbering& numbering) {
   Eigen::VectorXd difference = Eigen::VectorXd::Zero(of_nodes.size());
   for (const NodeId node : numbering.rows.ids()) {
     const NodeId first = numbering.nodes[numbering.rows[node].index()];
     difference[node.value()] = capacity[node.value()] * (of_nodes[node.value()] - of_nodes[first.value()]);
   }
-  const Eigen::VectorXd sums = summed(difference, numbering), capacities = summed(capacity, numbering);
+  const Eigen::VectorXd sums = summed(difference, numbering);
   Eigen::VectorXd means = of_rows(of_nodes, numbering);
   for (Eigen::Index row = 0; row < means.size(); ++row) {
-    if (sums[row] != 0) means[row] += sums[row] / capacities[row];
+    if (sums[row] != 0) means[row] += sums[row] / row_capacity[row];
   }
   return means;
 }
@@ -160,8 +162,9 @@ void number_fields(const Numbering& numbering, HeatModel& model) {
     places.col(static_cast<Eigen::Index>(row)) = model.places.col(numbering.nodes[row].value());
   }
   model.places = std::move(places);
-  model.initial = mean(model.initial, model.capacity, numbering);
-  model.capacity = summed(model.capacity, numbering);
+  Eigen::VectorXd capacity = summed(model.capacity, numbering);
+  model.initial = mean(model.initial, model.capacity, capacity, numbering);
+  model.capacity = std::move(capacity);
   of_rows(model.conductance, numbering).swap(model.conductance);
   if (model.varying) number_properties(numbering, *model.varying);
 }

@@ -103,12 +103,16 @@ def measure(programs, sizes, arguments):
             folder.mkdir(parents=True, exist_ok=True)
             found = [program.run(size, folder) for _ in range(1 if arguments.quick else arguments.repeats)]
             rows.append({"program": program.name, "setting": program.setting, **found[0], **medians(found, TIMES)})
-            print("  ".join(f"{key} {shown(value)}" for key, value in rows[-1].items()), flush=True)
+            print_row(rows[-1])
     return rows
 
 
 def shown(value):
     return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def print_row(row):
+    print("  ".join(f"{key} {shown(value)}" for key, value in row.items()), flush=True)
 
 
 def write_table(rows, path):
@@ -126,6 +130,13 @@ def append_to_record(rows, path):
         if fresh:
             writer.writeheader()
         writer.writerows({"version": version(), **{key: shown(value) for key, value in row.items()}} for row in rows)
+
+
+def keep(name, rows, arguments):
+    """The table in the output directory and, if asked for, in the record of changes."""
+    write_table(rows, arguments.out / f"{name}.csv")
+    if arguments.record:
+        append_to_record(rows, HERE.parent / f"record_{name}.csv")
 
 
 def cheapest(rows, error, measure):
@@ -181,13 +192,11 @@ def print_ratios(found, size):
 
 def finish(name, rows, size, arguments, title, error, finer=False):
     """The tables, the record and the plot of a benchmark whose rows state an error; `finer`: larger sizes do the same work more exactly."""
-    write_table(rows, arguments.out / f"{name}.csv")
+    keep(name, rows, arguments)
     found = ratios(rows, size, finer)
     if found:
         write_table(found, arguments.out / f"{name}_ratios.csv")
         print_ratios(found, size)
-    if arguments.record:
-        append_to_record(rows, HERE.parent / f"record_{name}.csv")
     plot(rows, arguments.out / f"{name}.png", title, (size, "error", error))
 
 
