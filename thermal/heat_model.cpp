@@ -13,6 +13,7 @@
 #include "thermal/fourth_order.h"
 #include "thermal/joint_conduction.h"
 #include "thermal/problems.h"
+#include "thermal/row_order.h"
 #include "thermal/share_rows.h"
 #include "thermal/tied_nodes.h"
 
@@ -194,7 +195,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   // Fourth order knows no neighbours but its own, and a node of two materials no one curve.
   std::optional<Table<NodeId, NodeId>> tied;
   if (!model.varying && options.space_order == SpaceOrder::second) tied = tied_nodes(mesh, contacts, joints, model);
-  if (model.lumped || tied) share_rows(mesh, materials, tied, model);
+  if (model.lumped || tied || is_worth_ordering(mesh)) share_rows(mesh, materials, tied, model);
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;
 }

@@ -13,7 +13,7 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 3";
+constexpr const char* format_name = "scree heat state 4";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;

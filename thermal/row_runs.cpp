@@ -1,6 +1,7 @@
 #include "thermal/row_runs.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "thermal/wide.h"
 
@@ -27,11 +28,7 @@ template <int columns>
 SCREE_INLINE void flows_of(std::span<const RowRun> runs, const int* column, const double* value, const double* x,
                            double* flow) {
   for (const RowRun& run : runs) {
-    // The processor's own prefetching ends at pages and does not keep up with rows as short as these.
-    constexpr int ahead = 256;
-    __builtin_prefetch(value + run.begin + ahead);
-    __builtin_prefetch(value + run.begin + ahead + 8);
-    __builtin_prefetch(column + run.begin + ahead);
+    fetch_ahead(column + run.begin, value + run.begin);
     const int numbers = columns * run.rows;
     int at = 0;
     for (; at + 4 <= numbers; at += 4) flow_of<columns, 4>(run, column, value, x, at, flow);
@@ -53,35 +50,74 @@ bool repeats(const Eigen::SparseMatrix<double>& matrix, Eigen::Index row) {
 
 }  // namespace
 
-RowRuns::RowRuns(const Eigen::SparseMatrix<double>& matrix) : column_(matrix.innerIndexPtr()), value_(matrix.valuePtr()) {
-  const int* outer = matrix.outerIndexPtr();
+RowRuns::RowRuns(const Eigen::SparseMatrix<double>& matrix)
+    : begin_(matrix.outerIndexPtr()), column_(matrix.innerIndexPtr()), value_(matrix.valuePtr()) {
   const int end = static_cast<int>(matrix.rows());
   for (int row = 0; row < end;) {
     if (bundles_.add(matrix, row)) {
-      const Bundle& bundle = bundles_[bundles_.count() - 1];
-      append(row, rows_in_bundle, true, 2 * static_cast<std::int64_t>(bundle.columns));
+      add_bundle(row);
       row += rows_in_bundle;
       continue;
     }
-    RowRun run{row, 1, outer[row], outer[row + 1] - outer[row]};
+    RowRun run{row, 1, begin_[row], begin_[row + 1] - begin_[row]};
     while (run.rows < rows_in_run && row + run.rows < end && repeats(matrix, row + run.rows)) ++run.rows;
-    runs_.push_back(run);
-    // Rows that repeat take a quarter of the time.
-    append(row, run.rows, false, run.entries * static_cast<std::int64_t>(run.rows + 3) / 4);
+    add_run(run);
     row += run.rows;
   }
+  close_part();
+  make_tiles();
 }
 
-// The next rows, in the bundle or run that was added last.
-void RowRuns::append(int row, int rows, bool bundled, std::int64_t work) {
-  const std::size_t here = (bundled ? bundles_.count() : runs_.size()) - 1;
-  const bool full = parts_.empty() || parts_.back().bundled != bundled || parts_.back().rows >= rows_in_part ||
-                    parts_.back().work >= work_in_part;
-  if (full) parts_.push_back({row, 0, bundled, here, here, 0});
-  Part& part = parts_.back();
-  part.rows += rows;
-  part.end = here + 1;
-  part.work += work;
+// The one that was added last.
+void RowRuns::add_bundle(int row) {
+  Part& part = open_part(row, Kind::bundled);
+  part.end = bundles_.count();
+  part.rows += rows_in_bundle;
+  part.reach = std::max(part.reach, bundles_.reach());
+  part.work += 2 * static_cast<std::int64_t>(bundles_[part.end - 1].columns);
+}
+
+void RowRuns::add_run(const RowRun& run) {
+  ++count_;
+  Part& part = open_part(run.first, Kind::repeating);
+  runs_.push_back(run);
+  part.end = runs_.size();
+  part.rows += run.rows;
+  if (run.entries > 0) part.reach = std::max(part.reach, column_[run.begin + run.entries - 1] + run.rows);
+  // Rows that repeat take a quarter of the time.
+  part.work += run.entries * static_cast<std::int64_t>(run.rows + 3) / 4;
+}
+
+// The part that the next rows belong to.
+RowRuns::Part& RowRuns::open_part(int row, Kind kind) {
+  const bool full =
+      parts_.empty() || parts_.back().kind != kind || parts_.back().rows >= rows_in_part || parts_.back().work >= work_in_part;
+  if (full) {
+    close_part();
+    const std::size_t next = kind == Kind::bundled ? bundles_.count() - 1 : runs_.size();
+    parts_.push_back({row, 0, kind, next, next, 0, 0});
+  }
+  return parts_.back();
+}
+
+// Where none of its rows repeats, no runs need be kept.
+void RowRuns::close_part() {
+  if (parts_.empty()) return;
+  Part& last = parts_.back();
+  if (last.kind == Kind::bundled || static_cast<std::size_t>(last.rows) > last.end - last.begin) return;
+  last.kind = Kind::lone;
+  runs_.resize(last.begin);
+}
+
+void RowRuns::make_tiles() {
+  std::vector<RowStretch> stretches;
+  int reach = 0;
+  for (const Part& part : parts_) {
+    reach = std::max(reach, part.reach);
+    stretches.push_back({part.first + part.rows, reach, part.work});
+  }
+  RowTiles tiles(stretches);
+  if (tiles.depth() > 1) tiles_ = std::move(tiles);
 }
 
 std::span<const RowRuns::Part> RowRuns::parts_of_task(int task, int threads) const {

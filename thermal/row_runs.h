@@ -1,14 +1,16 @@
 // Rows of K that repeat. In a grid of equal cells most rows are the one before, moved along by one node: the same values at
 // columns that are each one further. Such rows are multiplied together, several nodes to an instruction, and their values are
-// read once: in a grid a product then costs a fifth of what reading K for each row does. Elsewhere a run is one row long, but
-// the rows of small blocks are bundled (row_bundles.h).
+// read once: in a grid a product then costs a fifth of what reading K for each row does. Elsewhere a run is one row long, and
+// rows are read from K as they stand, but for the rows of small blocks, which are bundled (row_bundles.h).
 //
 // The flows of a row are summed in the order of its columns whatever the run, so how rows are grouped, and how wide the
 // processor's instructions are, does not change a bit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "engine/base/phases.h"
 #include "engine/base/threads.h"
 #include "thermal/row_bundles.h"
+#include "thermal/row_tiles.h"
 
 namespace scree::thermal {
 
@@ -27,6 +30,14 @@ struct RowRun {
   int begin;    // of its entries in K, those of the first row
   int entries;  // of a row
 };
+
+// The processor's own prefetching ends at pages and does not keep up with rows as short as these.
+inline void fetch_ahead(const int* column, const double* value) {
+  constexpr int ahead = 256;
+  __builtin_prefetch(value + ahead);
+  __builtin_prefetch(value + ahead + 8);
+  __builtin_prefetch(column + ahead);
+}
 
 class RowRuns {
  public:
@@ -38,15 +49,24 @@ class RowRuns {
   template <int columns, class Use>
   void for_each_flow(const double* x, const Use& use) const;
 
-  [[nodiscard]] std::size_t count() const { return runs_.size(); }
+  // The same of several products, one after the other. rows_of(product, first, rows) is asked for what is to be called with
+  // each of these rows and its flow; it may write the row of x(product + 1), which x(product - 1) may have been before, and
+  // read that of x(product).
+  template <int columns, class From, class RowsOf>
+  void for_each_product(int products, const From& x, const RowsOf& rows_of) const;
+
+  [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bundles() const { return bundles_.count(); }
 
  private:
+  enum class Kind { lone, repeating, bundled };
+
   // Consecutive rows that are worked off together, each part about as long as another.
   struct Part {
     int first, rows;
-    bool bundled;            // in bundles, else in runs
-    std::size_t begin, end;  // of those
+    Kind kind;
+    std::size_t begin, end;  // of its runs or bundles
+    int reach;               // one more than the last column of its rows
     std::int64_t work;       // entries that are read
   };
   static constexpr int rows_in_part = 512;
@@ -55,21 +75,33 @@ class RowRuns {
   static constexpr int tasks_a_thread = 5;
 
   [[nodiscard]] long rows() const { return parts_.empty() ? 0 : parts_.back().first + parts_.back().rows; }
-  void append(int row, int rows, bool bundled, std::int64_t work);
+  void add_bundle(int row);
+  void add_run(const RowRun& run);
+  Part& open_part(int row, Kind kind);
+  void close_part();
+  void make_tiles();
 
   // Each thread has a share of the rows. The first tasks are three quarters of every share, for a thread that takes the same
   // one in every product finds it in its cache; the others are small and even out who is done first.
   [[nodiscard]] std::span<const Part> parts_of_task(int task, int threads) const;
 
-  // The flows of a part's rows, one after another.
+  // The flows of rows that repeat, one after another.
   template <int columns>
   void flows(const Part& part, const double* x, double* flow) const;
 
+  template <int columns, class Use>
+  void work_off(const Part& part, const double* x, const Use& use) const;
+  template <int columns, class Use>
+  void work_off_lone(const Part& part, const double* x, const Use& use) const;
+
+  const int* begin_;  // of the entries of each row
   const int* column_;
   const double* value_;
-  std::vector<RowRun> runs_;
+  std::size_t count_ = 0;
+  std::vector<RowRun> runs_;  // of the parts that repeat
   RowBundles bundles_;
   std::vector<Part> parts_;
+  std::optional<RowTiles> tiles_;  // where several products are worth taking together
 };
 
 template <>
@@ -78,24 +110,58 @@ template <>
 void RowRuns::flows<2>(const Part& part, const double* x, double* flow) const;
 
 template <int columns, class Use>
-void RowRuns::for_each_flow(const double* x, const Use& use) const {
-  const auto work_off = [&](const Part& part) {
-    double flow[columns * (rows_in_part + rows_in_run)];
-    if (part.bundled) {
-      bundles_.flows<columns>(part.begin, part.end, x, flow);
-    } else {
-      flows<columns>(part, x, flow);
-    }
-    for (int i = 0; i < part.rows; ++i) use(part.first + i, flow + columns * i);
-  };
-  if (rows() < rows_worth_sharing) {
-    for (const Part& part : parts_) work_off(part);
-    return;
+void RowRuns::work_off_lone(const Part& part, const double* x, const Use& use) const {
+  using Flow = Eigen::Array<double, columns, 1>;
+  const auto at = [x](int row) { return Eigen::Map<const Flow>(x + columns * static_cast<std::ptrdiff_t>(row)); };
+  int entry = begin_[part.first];
+  for (int row = part.first; row < part.first + part.rows; ++row) {
+    fetch_ahead(column_ + entry, value_ + entry);
+    const Flow here = at(row);
+    Flow flow = Flow::Zero();
+    for (const int end = begin_[row + 1]; entry < end; ++entry) flow += value_[entry] * (at(column_[entry]) - here);
+    use(row, flow.data());
   }
-  const int threads = threads_in_use();
-  run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
-    for (const Part& part : parts_of_task(task, threads)) work_off(part);
-  });
+}
+
+template <int columns, class Use>
+void RowRuns::work_off(const Part& part, const double* x, const Use& use) const {
+  if (part.kind == Kind::lone) return work_off_lone<columns>(part, x, use);
+  double flow[columns * (rows_in_part + rows_in_run)];
+  if (part.kind == Kind::bundled) {
+    bundles_.flows<columns>(part.begin, part.end, x, flow);
+  } else {
+    flows<columns>(part, x, flow);
+  }
+  for (int i = 0; i < part.rows; ++i) use(part.first + i, flow + columns * i);
+}
+
+template <int columns, class Use>
+void RowRuns::for_each_flow(const double* x, const Use& use) const {
+  for_each_product<columns>(
+      1, [x](int) { return x; }, [&use](int, int, int) -> const Use& { return use; });
+}
+
+template <int columns, class From, class RowsOf>
+void RowRuns::for_each_product(int products, const From& x, const RowsOf& rows_of) const {
+  const auto take = [&](const Part& part, int product) {
+    work_off<columns>(part, x(product), rows_of(product, part.first, part.rows));
+  };
+  const int threads = rows() < rows_worth_sharing ? 1 : threads_in_use();
+  for (int product = 0, together; product < products; product += together) {
+    together = tiles_ ? std::min(tiles_->depth(), products - product) : 1;
+    if (together > 1) {
+      run_phases(tiles_->tasks(together), 1, [&](int phase, int number) {
+        const RowTiles::Task task = tiles_->task(together, phase, number);
+        for (std::size_t p = task.begin; p < task.end; ++p) take(parts_[p], product + task.product);
+      });
+    } else if (threads == 1) {
+      for (const Part& part : parts_) take(part, product);
+    } else {
+      run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
+        for (const Part& part : parts_of_task(task, threads)) take(part, product);
+      });
+    }
+  }
 }
 
 }  // namespace scree::thermal

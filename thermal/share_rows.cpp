@@ -10,6 +10,7 @@
 #include "thermal/block_conduction.h"
 #include "thermal/incidence.h"
 #include "thermal/row_assembly.h"
+#include "thermal/row_order.h"
 
 namespace scree::thermal {
 
@@ -22,17 +23,21 @@ struct Numbering {
 };
 
 template <int dim>
-Numbering number_rows(const mesh::BlockMesh<dim>& mesh, const std::optional<LumpedBlocks>& lumped,
+Numbering number_rows(const mesh::BlockMesh<dim>& mesh, const HeatModel& model,
                       const std::optional<Table<NodeId, NodeId>>& tied) {
-  Numbering numbering{Table<NodeId, NodeId>(mesh.nodes.size()), {}};
+  Table<NodeId, NodeId> first(mesh.nodes.size());  // of those that share a row
+  Numbering numbering;
   for (const BlockId b : mesh.blocks.ids()) {
-    const bool one_row = lumped && lumped->contain(b);
+    const bool one_row = model.lumped && model.lumped->contain(b);
     for (const NodeId node : mesh.blocks[b].nodes) {
-      const NodeId first = one_row ? mesh.blocks[b].nodes[0] : tied ? (*tied)[node] : node;
-      if (first == node) numbering.nodes.push_back(node);
-      numbering.rows[node] = first == node ? NodeId{numbering.nodes.size() - 1} : numbering.rows[first];
+      first[node] = one_row ? mesh.blocks[b].nodes[0] : tied ? (*tied)[node] : node;
+      if (first[node] == node) numbering.nodes.push_back(node);
     }
   }
+  if (is_worth_ordering(mesh)) numbering.nodes = in_space_order(std::move(numbering.nodes), model.blocks, model.places);
+  numbering.rows = Table<NodeId, NodeId>(mesh.nodes.size());
+  for (std::size_t row = 0; row < numbering.nodes.size(); ++row) numbering.rows[numbering.nodes[row]] = NodeId(row);
+  for (const NodeId node : mesh.nodes.ids()) numbering.rows[node] = numbering.rows[first[node]];
   return numbering;
 }
 
@@ -202,7 +207,7 @@ template <int dim>
 void share_rows(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                 const std::optional<Table<NodeId, NodeId>>& tied, HeatModel& model) {
   SCREE_EXPECT(!tied || !model.varying);
-  const Numbering numbering = number_rows(mesh, model.lumped, tied);
+  const Numbering numbering = number_rows(mesh, model, tied);
   std::vector<MeanTemperature> means;
   if (model.lumped) means = mean_temperatures(mesh, materials, numbering, model);
   number_fields(numbering, model);

@@ -13,6 +13,7 @@
 // Verwer, J. Comput. Appl. Math. 88, 1997, use the like for RKC). The error is carried by the scheme itself as a second column
 // of each product.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -66,28 +67,33 @@ double estimate_of(int stages) {
   return (third - 1.0 / 6) / (0.25 - third);
 }
 
-// S at the nodes that the ledger reads.
+// S at the nodes that the ledger reads, which are ascending.
 class WatchedMean {
  public:
-  explicit WatchedMean(const std::vector<NodeId>& nodes)
-      : nodes_(nodes), older_(nodes.size(), 0.0), newer_(nodes.size(), 0.0) {}
-
-  // Stage j, from D of the one before.
-  void advance(const Coefficients& with, const Columns& increment) {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      older_[i] = with.mu * newer_[i] + with.nu * older_[i] + with.product * increment(nodes_[i].value(), 0);
-    }
-    older_.swap(newer_);
+  explicit WatchedMean(const std::vector<NodeId>& nodes) : nodes_(nodes) {
+    for (std::vector<double>& mean : means_) mean.assign(nodes.size(), 0.0);
   }
 
-  [[nodiscard]] Eigen::VectorXd added_to(Eigen::VectorXd temperature) const {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) temperature[nodes_[i].value()] += newer_[i];
+  // Stage j of these rows, in the place of j - 2, from D of the one before.
+  void advance(int j, const Coefficients& with, const Columns& increment, int first, int rows) {
+    const std::vector<double>& newer = means_[(j - 1) % 2];
+    std::vector<double>& older = means_[j % 2];
+    const auto begin = std::lower_bound(nodes_.begin(), nodes_.end(), NodeId(static_cast<std::size_t>(first)));
+    for (auto node = begin; node != nodes_.end() && node->value() < first + rows; ++node) {
+      const auto i = static_cast<std::size_t>(node - nodes_.begin());
+      older[i] = with.mu * newer[i] + with.nu * older[i] + with.product * increment(node->value(), 0);
+    }
+  }
+
+  // The last of so many stages.
+  [[nodiscard]] Eigen::VectorXd added_to(Eigen::VectorXd temperature, int stages) const {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) temperature[nodes_[i].value()] += means_[stages % 2][i];
     return temperature;
   }
 
  private:
   const std::vector<NodeId>& nodes_;
-  std::vector<double> older_, newer_;
+  std::array<std::vector<double>, 2> means_;
 };
 
 class StabilisedScheme : public TimeScheme {
@@ -114,12 +120,7 @@ class StabilisedScheme : public TimeScheme {
     older_.setZero();
     newer_ = first_coefficient(stages) * start_;
     WatchedMean mean(watched_);
-    for (int j = 2; j <= stages; ++j) {
-      const Coefficients with = coefficients(j, stages);
-      mean.advance(with, newer_);
-      advance(with, length);
-      older_.swap(newer_);
-    }
+    sharing_.empty() ? advance(stages, length, mean) : advance_sharing(stages, length, mean);
     Step result;
     result.change = newer_.col(0);
     rates(newer_, length, older_);  // h L D
@@ -130,7 +131,7 @@ class StabilisedScheme : public TimeScheme {
       result.local_error = std::max(result.local_error, std::abs(local));
       result.error[row] = from.error[row] + newer_(row, 1) + local;
     }
-    result.stages = {{1, from.time + length, mean.added_to(from.temperature)}};
+    result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages)}};
     return result;
   }
 
@@ -187,22 +188,37 @@ class StabilisedScheme : public TimeScheme {
     rates.swap(shared_);
   }
 
-  // Stage j in the place of j-2.
-  void advance(const Coefficients& with, double length) {
-    if (!sharing_.empty()) {
-      rates(newer_, length, rates_);
-      older_ = with.mu * newer_ + with.nu * older_ - with.product * rates_ + with.start * start_;
-      return;
-    }
+  // Stages 2 to `stages`, which is odd, each in the place of the one before the last.
+  void advance(int stages, double length, WatchedMean& mean) {
+    std::vector<Coefficients> with;
+    for (int j = 2; j <= stages; ++j) with.push_back(coefficients(j, stages));
     const double* loss = linear_.loss.data();
     const double* inverse = inverse_.data();
-    const double scale = with.product * length;
-    balance_.flows().for_each_flow<2>(newer_.data(), [&, loss, inverse, scale](int row, const double* flow) {
-      const Pair here = pair(newer_, row);
-      Eigen::Map<Pair> increment(older_.data() + 2 * static_cast<std::ptrdiff_t>(row));
-      increment = with.mu * here + with.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
-                  with.start * pair(start_, row);
+    Columns* const columns[] = {&newer_, &older_};  // D_j-1 of product j - 2, in turns
+    const auto from = [&](int product) { return columns[product % 2]->data(); };
+    balance_.flows().for_each_product<2>(stages - 1, from, [&](int product, int first, int rows) {
+      const Coefficients stage = with[static_cast<std::size_t>(product)];
+      const Columns& newer = *columns[product % 2];
+      mean.advance(product + 2, stage, newer, first, rows);
+      return [&, stage, scale = stage.product * length, newer_data = newer.data(), older = columns[(product + 1) % 2]->data(),
+              loss, inverse](int row, const double* flow) {
+        const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
+        const ConstPair here(newer_data + at);
+        Eigen::Map<Pair> increment(older + at);
+        increment = stage.mu * here + stage.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
+                    stage.start * pair(start_, row);
+      };
     });
+  }
+
+  void advance_sharing(int stages, double length, WatchedMean& mean) {
+    for (int j = 2; j <= stages; ++j) {
+      const Coefficients with = coefficients(j, stages);
+      mean.advance(j, with, newer_, 0, static_cast<int>(newer_.rows()));
+      rates(newer_, length, rates_);
+      older_ = with.mu * newer_ + with.nu * older_ - with.product * rates_ + with.start * start_;
+      older_.swap(newer_);
+    }
   }
 
   using Pair = Eigen::Array2d;

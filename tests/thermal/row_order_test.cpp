@@ -1,0 +1,194 @@
+// Rows in the order of space, and products that share what they read.
+#include <gtest/gtest.h>
+
+#include "engine/base/threads.h"
+#include "tests/thermal/builders.h"
+#include "thermal/block_conduction.h"
+#include "thermal/flow_network.h"
+#include "thermal/row_order.h"
+#include "thermal/row_runs.h"
+
+namespace scree::thermal {
+namespace {
+
+// Two by two by two slabs of as many cells along each edge, the last one first.
+mesh::BlockMesh<3> eight_slabs(int cells) {
+  std::vector<test::Slab<3>> slabs;
+  for (int i = 7; i >= 0; --i) {
+    test::Slab<3> slab;
+    slab.low = {i % 2 * 1.0, i / 2 % 2 * 1.0, i / 4 * 1.0};
+    slab.cells = {cells, cells, cells};
+    slabs.push_back(slab);
+  }
+  return test::slab_mesh<3>(slabs);
+}
+
+double some_field(const Point<3>& at) {
+  return 300 + 7 * at.x() * at.y() + 11 * at.z() * at.z() - at.x();
+}
+
+// Summed element by element, for each node of the mesh.
+Eigen::VectorXd heat_leaving(const mesh::BlockMesh<3>& mesh, double conductivity) {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const auto& nodes : mesh.elements) {
+    const auto matrix = element_conductance<3>(corner_points<3>(mesh, nodes), conductivity * Tensor<3>::Identity());
+    for (int a = 0; a < 4; ++a) {
+      for (int b = 0; b < 4; ++b) heat[nodes[a].value()] += matrix(a, b) * some_field(mesh.nodes[nodes[b]]);
+    }
+  }
+  return heat;
+}
+
+TEST(RowOrder, AModelWhoseRowsAreInTheOrderOfSpaceConductsAndStoresAsItsElementsDo) {
+  const mesh::BlockMesh<3> mesh = eight_slabs(18);
+  ASSERT_TRUE(is_worth_ordering(mesh));
+  const HeatModel model = make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300));
+  ASSERT_FALSE(model.rows.is_identity());
+  ASSERT_EQ(static_cast<std::size_t>(model.capacity.size()), mesh.nodes.size());
+  Eigen::VectorXd temperature(model.capacity.size());
+  for (Eigen::Index row = 0; row < temperature.size(); ++row) temperature[row] = some_field(model.places.col(row));
+  const Eigen::VectorXd heat = model.rows.to_nodes(FlowNetwork(&model.conductance, Sums::plain).leaving(temperature));
+  const Eigen::VectorXd expected = heat_leaving(mesh, *test::rock().conductivity->value.constant());
+  EXPECT_LT((heat - expected).lpNorm<Eigen::Infinity>(), 1e-12 * expected.lpNorm<Eigen::Infinity>());
+  const double solid = 8.0 * 2500 * 800;  // cubic metres of rock
+  EXPECT_NEAR(model.capacity.sum(), solid, 1e-9 * solid);
+  for (const NodeId node : mesh.nodes.ids()) {
+    EXPECT_EQ(model.places.col(model.rows[node].value()), mesh.nodes[node]);
+    EXPECT_EQ(model.blocks[model.rows[node]], BlockId(node.index() / (19U * 19 * 19)));
+  }
+}
+
+TEST(RowOrder, SmallMeshesAndGridsOfCellsKeepTheirOrder) {
+  const mesh::BlockMesh<3> mesh = eight_slabs(3);
+  EXPECT_FALSE(is_worth_ordering(mesh));
+  EXPECT_TRUE(make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300)).rows.is_identity());
+}
+
+TEST(RowOrder, GoesThroughSlabsAcrossTheLongestSideAndKeepsSmallBlocksTogether) {
+  // A row of ten bars of two nodes each along y, listed backwards, then the nodes of a large block between them.
+  std::vector<NodeId> nodes;
+  Table<NodeId, BlockId> blocks;
+  Eigen::Matrix3Xd places(3, 30);
+  for (int i = 0; i < 30; ++i) {
+    nodes.emplace_back(static_cast<std::size_t>(i));
+    const bool bar = i < 20;
+    blocks.push_back(BlockId(static_cast<std::size_t>(bar ? i / 2 : 10)));
+    places.col(i) = bar ? Eigen::Vector3d(0.3 * (i % 2), 9 - i / 2, 0.1 * (i % 2)) : Eigen::Vector3d(0.1, i - 20 + 0.05, 0.05);
+  }
+  const std::vector<NodeId> order = in_space_order(nodes, blocks, places);
+  ASSERT_EQ(order.size(), nodes.size());
+  for (std::size_t i = 0; i < order.size(); i += 3) {
+    const std::size_t bar = 9 - i / 3;
+    EXPECT_EQ(order[i], NodeId(2 * bar));
+    EXPECT_EQ(order[i + 1], NodeId(2 * bar + 1));
+    EXPECT_EQ(order[i + 2], NodeId(20 + i / 3));
+  }
+}
+
+// Rows of K like those of a solid: each has entries at the 27 nodes around its own.
+SparseMatrix solid(int nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto number = [&](int x, int y, int z) { return x + nodes * (y + nodes * z); };
+  const auto each = [&](const auto& use) {
+    for (int i = 0; i < nodes * nodes * nodes; ++i) use(i % nodes, i / nodes % nodes, i / (nodes * nodes));
+  };
+  each([&](int x, int y, int z) {
+    for (int i = 0; i < 27; ++i) {
+      const int a = x + i % 3 - 1, b = y + i / 3 % 3 - 1, c = z + i / 9 - 1;
+      if (std::min({a, b, c}) < 0 || std::max({a, b, c}) >= nodes) continue;
+      entries.emplace_back(number(x, y, z), number(a, b, c), 1 + std::sin(number(x, y, z) * 1.0 + number(a, b, c)));
+    }
+  });
+  SparseMatrix matrix(nodes * nodes * nodes, nodes * nodes * nodes);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// Stretches of 500 rows of it.
+std::vector<RowStretch> stretches_of(const SparseMatrix& matrix) {
+  std::vector<RowStretch> stretches;
+  int reach = 0;
+  for (int first = 0; first < matrix.rows(); first += 500) {
+    const int end = std::min<int>(first + 500, static_cast<int>(matrix.rows()));
+    for (int row = first; row < end; ++row) {
+      for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
+        reach = std::max(reach, static_cast<int>(entry.row()) + 1);
+    }
+    stretches.push_back({end, reach, matrix.outerIndexPtr()[end] - matrix.outerIndexPtr()[first]});
+  }
+  return stretches;
+}
+
+TEST(RowTiles, EveryRowIsReadOnlyWhenItsNeighboursAreDoneAndWrittenOnlyWhenNoneNeedsIt) {
+  const SparseMatrix matrix = solid(36);
+  const std::vector<RowStretch> stretches = stretches_of(matrix);
+  const RowTiles tiles(stretches);
+  ASSERT_GT(tiles.depth(), 1);
+  for (int depth = 2; depth <= tiles.depth(); ++depth) {
+    // Of each row, the phase in which each product was taken.
+    std::vector<std::vector<int>> taken(static_cast<std::size_t>(depth), std::vector<int>(matrix.rows(), -1));
+    const std::vector<int> sizes = tiles.tasks(depth);
+    for (int phase = 0; phase < std::ssize(sizes); ++phase) {
+      for (int number = 0; number < sizes[phase]; ++number) {
+        const RowTiles::Task task = tiles.task(depth, phase, number);
+        for (int row = task.begin == 0 ? 0 : stretches[task.begin - 1].end; row < stretches[task.end - 1].end; ++row) {
+          EXPECT_EQ(taken[task.product][row], -1);
+          taken[task.product][row] = phase;
+        }
+      }
+    }
+    long wrong = 0;
+    for (int product = 0; product < depth; ++product) {
+      for (int row = 0; row < matrix.rows(); ++row) {
+        wrong += taken[product][row] < 0 ? 1 : 0;
+        // What product reads was made by the one before, and is overwritten by the one after.
+        for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+          if (product > 0 && taken[product - 1][entry.row()] >= taken[product][row]) ++wrong;
+          if (product + 1 < depth && taken[product + 1][entry.row()] <= taken[product][row]) ++wrong;
+        }
+      }
+    }
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+TEST(RowTiles, MatricesThatStayInTheCacheOrReachFarAreNotTiled) {
+  EXPECT_EQ(RowTiles(stretches_of(solid(12))).depth(), 1);
+  std::vector<RowStretch> far;  // every row reaches the last one
+  for (int i = 1; i <= 400; ++i) far.push_back({500 * i, 200'000, 10'000});
+  EXPECT_EQ(RowTiles(far).depth(), 1);
+}
+
+TEST(RowTiles, ProductsInARowAreThoseOfOneAfterTheOtherToTheBitForAnyNumberOfThreads) {
+  const SparseMatrix matrix = solid(36);
+  const RowRuns runs(matrix);
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  const Columns start = Columns::Random(matrix.rows(), 2);
+  const int products = 7;
+  const auto in_a_row = [&](int at_once) {
+    Columns values[2] = {start, Columns::Zero(matrix.rows(), 2)};
+    for (int done = 0; done < products; done += at_once) {
+      runs.for_each_product<2>(
+          std::min(at_once, products - done), [&](int product) { return values[(done + product) % 2].data(); },
+          [&](int product, int, int) {
+            const Columns& from = values[(done + product) % 2];
+            Columns& to = values[(done + product + 1) % 2];
+            return [&](int row, const double* flow) {
+              for (int c = 0; c < 2; ++c) to(row, c) = from(row, c) - 0.01 * flow[c] + 0.1 * to(row, c);
+            };
+          });
+    }
+    return values[products % 2];
+  };
+  const int before = threads_in_use();
+  use_threads(1);
+  const Columns expected = in_a_row(1);
+  for (const int threads : {1, 2, 3, 7}) {
+    use_threads(threads);
+    EXPECT_EQ(in_a_row(products), expected) << threads << " threads";
+  }
+  use_threads(before);
+}
+
+}  // namespace
+}  // namespace scree::thermal
