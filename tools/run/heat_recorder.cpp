@@ -22,17 +22,35 @@ bool frame_due(const Scene& scene, double time) {
   return std::abs(time / every - std::round(time / every)) < 1e-9;
 }
 
+// Calls both, at the same time if there are threads for it.
+template <class First, class Second>
+void call_both(bool at_once, const First& first, const Second& second) {
+  auto other = std::async(at_once ? std::launch::async : std::launch::deferred, [&] {
+    if (at_once) use_threads(1);  // of that thread's own loops
+    second();
+  });
+  first();
+  other.get();
+}
+
 }  // namespace
 
 template <int dim>
 HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile,
                                 const thermal::HeatModel& model, std::optional<double> resumed_from)
-    : scene_(scene), pile_(pile), model_(model), restart_(files.restart()), series_(files.directory, "heat", resumed_from) {
-  series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh));
-  if (!pile.contacts.contacts.empty()) {
+    : scene_(scene),
+      pile_(pile),
+      model_(model),
+      restart_(files.restart()),
+      several_threads_(threads_in_use() > 1),
+      series_(files.directory, "heat", resumed_from) {
+  const auto share_blocks = [&] { series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh)); };
+  const auto share_contacts = [&] {
+    if (pile.contacts.contacts.empty()) return;
     contact_series_.emplace(files.directory, "contacts", resumed_from);
     contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts));
-  }
+  };
+  call_both(several_threads_, share_blocks, share_contacts);
   if (pile.probes.empty()) return;
   if (resumed_from) {
     table_.emplace(files.probes(), *resumed_from);
@@ -70,17 +88,23 @@ void HeatRecorder<dim>::write(const thermal::HeatState& state) {
 
 template <int dim>
 void HeatRecorder<dim>::write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state) {
-  const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, temperature);
-  output::Frame frame = heat_frame<dim>(state.time, temperature, flux);
-  if (space_error_) {
-    const auto rate = model_.rows.to_nodes(thermal::temperature_rate(model_, state.temperature, state.time));
-    const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, temperature, rate);
-    frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
-  }
-  series_.write(frame);
-  if (!contact_series_) return;
-  auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
-  contact_series_->write(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
+  const auto write_blocks = [&] {
+    const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, temperature);
+    output::Frame frame = heat_frame<dim>(state.time, temperature, flux);
+    if (space_error_) {
+      const auto rate = model_.rows.to_nodes(thermal::temperature_rate(model_, state.temperature, state.time));
+      const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, temperature, rate);
+      frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
+    }
+    series_.write(frame);
+  };
+  const auto write_contacts = [&] {
+    if (!contact_series_) return;
+    auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
+    contact_series_->write(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
+  };
+  // Until the last frame the other threads compute.
+  call_both(several_threads_ && state.time >= scene_.heat->time.until, write_blocks, write_contacts);
 }
 
 template class HeatRecorder<2>;

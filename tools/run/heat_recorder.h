@@ -39,6 +39,7 @@ class HeatRecorder {
   const HeatedPile<dim>& pile_;
   const thermal::HeatModel& model_;
   std::filesystem::path restart_;
+  bool several_threads_;
   output::Series series_;
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
