@@ -30,7 +30,7 @@ template <int dim>
 class Applier {
  public:
   Applier(const mesh::BlockMesh<dim>& mesh, double until, HeatModel& model)
-      : mesh_(mesh), model_(model), until_(until), faces_(mesh::weighted_faces(mesh)), blocks_of_(mesh.bodies.size()) {
+      : mesh_(mesh), model_(model), until_(until), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
     Aabb<dim> extent;
     for (const Point<dim>& point : mesh.nodes) extent.extend(point);
@@ -165,16 +165,17 @@ class Applier {
 
   // The share of each node in the area of the region's faces.
   NodeShares face_shares(const Boundary& boundary) {
+    if (!faces_) faces_ = mesh::weighted_faces(mesh_);
     SharesByNode shares;
     std::optional<SurfaceId> surface;
     if (boundary.region.surface) surface = mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface);
-    for (const FaceId f : faces_.ids()) {
-      if (mesh_.blocks[faces_[f].block].body != boundary.region.body) continue;
-      bool in = !surface || mesh::on_surface<dim>(mesh_, faces_[f].nodes, *surface);
-      for (const NodeId node : faces_[f].nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
+    for (const mesh::WeightedFace<dim>& face : *faces_) {
+      if (mesh_.blocks[face.block].body != boundary.region.body) continue;
+      bool in = !surface || mesh::on_surface<dim>(mesh_, face.nodes, *surface);
+      for (const NodeId node : face.nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
       if (!in) continue;
-      const double share = faces_[f].weight * mesh::face_area<dim>(mesh_, faces_[f]) / dim;
-      for (const NodeId node : faces_[f].nodes) shares[node] += share;
+      const double share = face.weight * mesh::face_area<dim>(mesh_, face) / dim;
+      for (const NodeId node : face.nodes) shares[node] += share;
     }
     if (shares.empty()) {
       nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region,
@@ -218,7 +219,7 @@ class Applier {
   const mesh::BlockMesh<dim>& mesh_;
   HeatModel& model_;
   double until_;  // end of the run [s]
-  Table<FaceId, mesh::WeightedFace<dim>> faces_;
+  std::optional<Table<FaceId, mesh::WeightedFace<dim>>> faces_;  // once something passes heat through faces
   Table<BodyId, std::vector<BlockId>> blocks_of_;
   double rounding_ = 0;         // [m]
   std::map<NodeId, int> held_;  // which of the model's holds
