@@ -1,6 +1,8 @@
 #include "engine/rigid/contact_solver.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <LinearMath/btTransformUtil.h>
@@ -150,31 +152,51 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds ma
   });
 }
 
-// Takes the overlaps apart without giving the bodies velocity.
-void ContactSolver::undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations) {
-  std::vector<OverlapRow> rows;
-  Batches batches{{0}};
-  for (int b = 0; b < batches_.count(); ++b) {
+// The rows of overlapping points, by batches.
+Batches ContactSolver::overlapping(std::vector<OverlapRow>& rows) const {
+  Batches batches{std::vector<std::size_t>(batches_.ends.size(), 0)};
+  const auto for_each_batch = [&](const auto& use) {
+    run_phases(std::array<int, 1>{batches_.count()}, 1, [&](int, int batch) { use(static_cast<std::size_t>(batch)); });
+  };
+  for_each_batch([&](std::size_t b) {
+    for (std::size_t i = batches_.ends[b]; i < batches_.ends[b + 1]; ++i) batches.ends[b + 1] += overlaps_[i] > 0 ? 1 : 0;
+  });
+  std::partial_sum(batches.ends.begin(), batches.ends.end(), batches.ends.begin());
+  rows.resize(batches.ends.back());
+  for_each_batch([&](std::size_t b) {
+    std::size_t next = batches.ends[b];
     for (std::size_t i = batches_.ends[b]; i < batches_.ends[b + 1]; ++i) {
       if (overlaps_[i] <= 0) continue;
-      rows.push_back({rows_[i].normal, rows_[i].bodies});
-      rows.back().normal.wanted = overlaps_[i];
-      rows.back().normal.applied = 0;
+      OverlapRow& row = rows[next++];
+      row = {rows_[i].normal, rows_[i].bodies};
+      row.normal.wanted = overlaps_[i];
+      row.normal.applied = 0;
     }
-    batches.ends.push_back(rows.size());
-  }
-  if (rows.empty()) return;
-  for (BodyChange& change : changes_) change.linear = change.angular = Eigen::Vector3d::Zero();
-  for_batches(batches, iterations, [&](std::size_t begin, std::size_t end) {
-    solve_overlaps(std::span(rows).subspan(begin, end - begin), changes_);
   });
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (changes_[i].linear.isZero(0) && changes_[i].angular.isZero(0)) continue;
-    btTransform moved;
-    btTransformUtil::integrateTransform(bodies[i]->getWorldTransform(), to_bullet(changes_[i].linear),
-                                        to_bullet(changes_[i].angular) * overlap_turn, step.time_step, moved);
-    bodies[i]->setWorldTransform(moved);
-  }
+  return batches;
+}
+
+// Takes the overlaps apart without giving the bodies velocity.
+void ContactSolver::undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations) {
+  const Batches batches = overlapping(overlap_rows_);
+  if (overlap_rows_.empty()) return;
+  for_short_chunks(changes_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      changes_[i].linear = changes_[i].angular = Eigen::Vector3d::Zero();
+    }
+  });
+  for_batches(batches, iterations, [&](std::size_t begin, std::size_t end) {
+    solve_overlaps(std::span(overlap_rows_).subspan(begin, end - begin), changes_);
+  });
+  for_short_chunks(bodies.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (changes_[i].linear.isZero(0) && changes_[i].angular.isZero(0)) continue;
+      btTransform moved;
+      btTransformUtil::integrateTransform(bodies[i]->getWorldTransform(), to_bullet(changes_[i].linear),
+                                          to_bullet(changes_[i].angular) * overlap_turn, step.time_step, moved);
+      bodies[i]->setWorldTransform(moved);
+    }
+  });
 }
 
 }  // namespace scree::rigid

@@ -45,6 +45,7 @@ class ContactSolver {
   bool order_rows(int slabs);
   void set_up(Manifolds manifolds, const StepLengths& step);
   void solve_rows(int iterations);
+  Batches overlapping(std::vector<OverlapRow>& rows) const;
   void undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations);
   void finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds);
 
@@ -55,6 +56,7 @@ class ContactSolver {
   std::vector<Touch> touches_;    // likewise
   std::vector<ContactRow> rows_;  // by batches
   std::vector<double> overlaps_;  // one per row, see overlap_impulse
+  std::vector<OverlapRow> overlap_rows_;
   Batches batches_;
 };
 

@@ -1,22 +1,15 @@
 #include "engine/rigid/polyhedron_collision.h"
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <vector>
 
-#include "engine/base/phases.h"
-#include "engine/rigid/contact_points.h"
+#include "engine/rigid/homes.h"
 #include "engine/rigid/polyhedron_shape.h"
 
 namespace scree::rigid {
@@ -46,63 +39,20 @@ double fastest_approach(const btCollisionObjectWrapper& first, const btCollision
          static_cast<const PolyhedronShape&>(*second.getCollisionShape()).radius() * b.getAngularVelocity().length();
 }
 
-class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
- public:
-  PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
-                      const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second)
-      : btActivatingCollisionAlgorithm(info, first, second), ranges_(ranges) {}
-  ~PolyhedronCollision() override { drop_manifold(); }
+}  // namespace
 
-  void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                        const btDispatcherInfo& info, btManifoldResult* result) override;
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) override {
-    return 1;
-  }
-  void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (manifold_ != nullptr) manifolds.push_back(manifold_);
-  }
-
-  struct Pair {
-    const btCollisionObjectWrapper* first;
-    const btCollisionObjectWrapper* second;
-    double reach;      // how near a point must be to become a contact in this step [m]
-    double time_step;  // [s]
-  };
-
-  [[nodiscard]] Pair pair_of(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
-                             double time_step) const {
-    return {&first, &second, ranges_.near + fastest_approach(first, second) * time_step, time_step};
-  }
-  // Moves the points with the pair, or returns new ones. Touches nothing but its own pair, so that many may look at once.
-  [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
-  // Takes over new points. One at a time, for manifolds come from a common pool.
-  void take(const Pair& pair, const ContactPoints& contact);
-  // Whether looks will find nothing to do as long as both blocks are at home.
-  [[nodiscard]] bool far(const Pair& pair) const;
-
- private:
-  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
-  [[nodiscard]] ContactPoints evaluate(const Pair& pair);
-  void write_points(const Pair& pair, const ContactPoints& contact);
-  void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
-  void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
-  void move_points(const Pair& pair, bool evaluated);
-  void drop_manifold();
-
-  const ContactRanges& ranges_;
-  btPersistentManifold* manifold_ = nullptr;
-  btTransform relative_;         // pose of the second in the first's frame when evaluated
-  double moved_ = 0;             // since then, at most [m]
-  double evaluated_reach_ = -1;  // negative: never evaluated
-  packing::Separation separation_;
-  btVector3 normal_;            // from the second to the first, in the first's frame
-  btVector3 tangent_{0, 0, 0};  // first friction direction, in the first's frame
-};
+PolyhedronCollision::Pair PolyhedronCollision::pair_of(const btCollisionObjectWrapper& first,
+                                                       const btCollisionObjectWrapper& second, double time_step) const {
+  return {&first, &second, ranges_.near + fastest_approach(first, second) * time_step, time_step};
+}
 
 void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                                            const btDispatcherInfo& info, btManifoldResult* result) {
   const Pair pair = pair_of(*first, *second, info.m_timeStep);
-  if (const auto contact = look(pair)) take(pair, *contact);
+  if (const auto contact = look(pair)) {
+    claim(pair, *contact);
+    take(pair, *contact);
+  }
   if (manifold_ != nullptr) result->setPersistentManifold(manifold_);
 }
 
@@ -117,11 +67,11 @@ std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
   return std::nullopt;
 }
 
-void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
+void PolyhedronCollision::claim(const Pair& pair, const ContactPoints& contact) {
   if (contact.count == 0) {
     drop_manifold();
-  } else {
-    write_points(pair, contact);
+  } else if (manifold_ == nullptr) {
+    manifold_ = m_dispatcher->getNewManifold(pair.first->getCollisionObject(), pair.second->getCollisionObject());
   }
 }
 
@@ -158,10 +108,10 @@ ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
   return contact_points(a, b, separation_, pair.reach);
 }
 
-void PolyhedronCollision::write_points(const Pair& pair, const ContactPoints& contact) {
+void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
+  if (contact.count == 0) return;
   const auto* first = pair.first->getCollisionObject();
   const auto* second = pair.second->getCollisionObject();
-  if (manifold_ == nullptr) manifold_ = m_dispatcher->getNewManifold(first, second);
   std::array<btManifoldPoint, 4> old;
   const int old_count = manifold_->getNumContacts();
   for (int i = 0; i < old_count; ++i) old[i] = manifold_->getContactPoint(i);
@@ -255,6 +205,8 @@ void PolyhedronCollision::drop_manifold() {
   manifold_ = nullptr;
 }
 
+namespace {
+
 class CreatePolyhedronCollision final : public btCollisionAlgorithmCreateFunc {
  public:
   explicit CreatePolyhedronCollision(const ContactRanges& ranges) : ranges_(ranges) {}
@@ -269,45 +221,6 @@ class CreatePolyhedronCollision final : public btCollisionAlgorithmCreateFunc {
   ContactRanges ranges_;
 };
 
-// The two bodies of a pair as Bullet's algorithms take them.
-struct WrappedPair {
-  explicit WrappedPair(const btBroadphasePair& pair) : first(wrap(pair.m_pProxy0)), second(wrap(pair.m_pProxy1)) {}
-  [[nodiscard]] bool of_polyhedra() const {
-    return first.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE &&
-           second.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE;
-  }
-
-  btCollisionObjectWrapper first;
-  btCollisionObjectWrapper second;
-
- private:
-  static btCollisionObjectWrapper wrap(const btBroadphaseProxy* proxy) {
-    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-    return {nullptr, object->getCollisionShape(), object, object->getWorldTransform(), -1, -1};
-  }
-};
-
-int block_of(const btBroadphaseProxy* proxy) {
-  return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
-}
-
-// What is noted in a pair that was found far apart, so that a look at it reads nothing else: its blocks, from 1 on.
-struct FarBlocks {
-  std::int32_t first, second;
-};
-static_assert(sizeof(FarBlocks) == sizeof(void*));
-
-void note(btBroadphasePair& pair, bool far) {
-  const FarBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
-  pair.m_internalInfo1 = far ? std::bit_cast<void*>(blocks) : nullptr;
-}
-
-bool stays_far(const btBroadphasePair& pair, const Homes& homes) {
-  if (pair.m_internalInfo1 == nullptr) return false;
-  const auto [first, second] = std::bit_cast<FarBlocks>(pair.m_internalInfo1);
-  return homes.at_home(first - 1) && homes.at_home(second - 1);
-}
-
 btDefaultCollisionConstructionInfo pools(int blocks) {
   btDefaultCollisionConstructionInfo info;
   // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
@@ -318,63 +231,6 @@ btDefaultCollisionConstructionInfo pools(int blocks) {
 }
 
 }  // namespace
-
-Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes)
-    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes) {
-  setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
-}
-
-void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info, btDispatcher*) {
-  struct News {
-    int pair;
-    std::optional<ContactPoints> contact;  // nothing: left to Bullet
-  };
-  btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
-  const auto count = static_cast<std::size_t>(pairs.size());
-  if (flights_.count() > 0) end_flights(*cache);
-  for (int i = 0; i < pairs.size(); ++i) add_algorithm(pairs[i]);
-  std::vector<std::vector<News>> news(chunk_count(count));
-  for_short_chunks(count, [&](Chunk chunk) {
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const auto number = static_cast<int>(i);
-      if (pairs[number].m_algorithm == nullptr || stays_far(pairs[number], homes_)) continue;
-      const WrappedPair wrapped(pairs[number]);
-      if (!wrapped.of_polyhedra()) {
-        news[chunk.number].push_back({number, std::nullopt});
-        continue;
-      }
-      auto& algorithm = static_cast<PolyhedronCollision&>(*pairs[number].m_algorithm);
-      const auto pair = algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep);
-      const auto contact = algorithm.look(pair);
-      note(pairs[number], algorithm.far(pair) && (!contact || contact->count == 0));
-      if (contact) news[chunk.number].push_back({number, contact});
-    }
-  });
-  for (const auto& part : news) {
-    for (const auto& [number, contact] : part) {
-      const WrappedPair wrapped(pairs[number]);
-      if (contact) {
-        auto& algorithm = static_cast<PolyhedronCollision&>(*pairs[number].m_algorithm);
-        algorithm.take(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *contact);
-      } else {
-        btManifoldResult result(&wrapped.first, &wrapped.second);
-        pairs[number].m_algorithm->processCollision(&wrapped.first, &wrapped.second, info, &result);
-      }
-    }
-  }
-}
-
-void Dispatcher::end_flights(btOverlappingPairCache& cache) {
-  const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
-  for (int i = 0; i < pairs.size(); ++i) flights_.meet(block_of(pairs[i].m_pProxy0), block_of(pairs[i].m_pProxy1));
-}
-
-void Dispatcher::add_algorithm(btBroadphasePair& pair) {
-  if (pair.m_algorithm != nullptr || flights_.together(block_of(pair.m_pProxy0), block_of(pair.m_pProxy1))) return;
-  const WrappedPair wrapped(pair);
-  if (!needsCollision(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject())) return;
-  pair.m_algorithm = findAlgorithm(&wrapped.first, &wrapped.second, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-}
 
 CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, int blocks)
     : btDefaultCollisionConfiguration(pools(blocks)), create_(std::make_unique<CreatePolyhedronCollision>(ranges)) {}

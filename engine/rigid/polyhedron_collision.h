@@ -1,15 +1,16 @@
 // Our narrow phase in Bullet's collision configuration: separating axes and face clipping on the true geometry, no margin.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include "engine/packing/separation.h"
-#include "engine/rigid/flights.h"
-#include "engine/rigid/homes.h"
+#include "engine/rigid/contact_points.h"
 
 namespace scree::rigid {
 
@@ -23,6 +24,59 @@ struct ContactRanges {
   double clearance = 0;     // at which two blocks touch [m]
 };
 
+// Two polyhedra that may touch.
+class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
+ public:
+  PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
+                      const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second)
+      : btActivatingCollisionAlgorithm(info, first, second), ranges_(ranges) {}
+  ~PolyhedronCollision() override { drop_manifold(); }
+
+  void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) override {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override {
+    if (manifold_ != nullptr) manifolds.push_back(manifold_);
+  }
+
+  struct Pair {
+    const btCollisionObjectWrapper* first;
+    const btCollisionObjectWrapper* second;
+    double reach;      // how near a point must be to become a contact in this step [m]
+    double time_step;  // [s]
+  };
+
+  [[nodiscard]] Pair pair_of(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
+                             double time_step) const;
+  // Moves the points with the pair, or returns new ones. Touches nothing but its own pair, so that many may look at once.
+  [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
+  // Makes room for new points, or gives up what there was. One at a time, for manifolds come from a common pool.
+  void claim(const Pair& pair, const ContactPoints& contact);
+  // Then takes them over, if there are any. Touches nothing but its own pair.
+  void take(const Pair& pair, const ContactPoints& contact);
+  // Whether looks will find nothing to do as long as both blocks are at home.
+  [[nodiscard]] bool far(const Pair& pair) const;
+
+ private:
+  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
+  [[nodiscard]] ContactPoints evaluate(const Pair& pair);
+  void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
+  void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
+  void move_points(const Pair& pair, bool evaluated);
+  void drop_manifold();
+
+  const ContactRanges& ranges_;
+  btPersistentManifold* manifold_ = nullptr;
+  btTransform relative_;         // pose of the second in the first's frame when evaluated
+  double moved_ = 0;             // since then, at most [m]
+  double evaluated_reach_ = -1;  // negative: never evaluated
+  packing::Separation separation_;
+  btVector3 normal_;            // from the second to the first, in the first's frame
+  btVector3 tangent_{0, 0, 0};  // first friction direction, in the first's frame
+};
+
 // Creates the algorithm for two polyhedra and leaves other shapes (compounds) to Bullet.
 class CollisionConfiguration final : public btDefaultCollisionConfiguration {
  public:
@@ -32,24 +86,6 @@ class CollisionConfiguration final : public btDefaultCollisionConfiguration {
 
  private:
   std::unique_ptr<btCollisionAlgorithmCreateFunc> create_;
-};
-
-// Looks at the pairs of polyhedra on all threads, then takes over what is new in the order of the pairs: the same contacts in
-// the same order for any number of threads.
-class Dispatcher final : public btCollisionDispatcher {
- public:
-  // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
-  // home.
-  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes);
-  void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
-                                 btDispatcher* dispatcher) override;
-
- private:
-  void end_flights(btOverlappingPairCache& cache);
-  void add_algorithm(btBroadphasePair& pair);
-
-  Flights& flights_;
-  const Homes& homes_;
 };
 
 }  // namespace scree::rigid

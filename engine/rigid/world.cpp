@@ -15,7 +15,9 @@
 #include "engine/base/check.h"
 #include "engine/base/phases.h"
 #include "engine/rigid/contact_solver.h"
+#include "engine/rigid/dispatcher.h"
 #include "engine/rigid/mass_properties.h"
+#include "engine/rigid/pair_cache.h"
 #include "engine/rigid/polyhedron_collision.h"
 #include "engine/rigid/polyhedron_shape.h"
 
@@ -81,6 +83,19 @@ mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
   return piece;
 }
 
+// Of the body on its way through the step, and as far around it.
+std::array<btVector3, 2> swept_box(const btCollisionObject& body, double around) {
+  const btVector3 margin(around, around, around);
+  std::array<btVector3, 2> box, end;
+  body.getCollisionShape()->getAabb(body.getWorldTransform(), box[0], box[1]);
+  box = {box[0] - margin, box[1] + margin};
+  if (body.isStaticObject()) return box;
+  body.getCollisionShape()->getAabb(body.getInterpolationWorldTransform(), end[0], end[1]);
+  box[0].setMin(end[0] - margin);
+  box[1].setMax(end[1] + margin);
+  return box;
+}
+
 double density_of(const Material& material) {
   if (material.density && *material.density > 0) return *material.density;
   Problem problem;
@@ -102,7 +117,7 @@ struct World::Bullet {
         dispatcher(configuration, flights, homes),
         world(&dispatcher, &broadphase, nullptr, &configuration) {
     gDbvtMargin = ranges.near;
-    gContactBreakingThreshold = ranges.near;  // added to every bounding box
+    gContactBreakingThreshold = ranges.near;
   }
 
   ContactRanges ranges;
@@ -110,7 +125,8 @@ struct World::Bullet {
   Flights flights;
   Homes homes;
   Dispatcher dispatcher;
-  btDbvtBroadphase broadphase;
+  PairCache pairs;
+  btDbvtBroadphase broadphase{&pairs};
   ContactSolver solver;
   btDiscreteDynamicsWorld world;  // only of its bodies and their pairs; steps are made here
 
@@ -224,8 +240,7 @@ void World::step(double time_step, int iterations) {
       body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
     }
   });
-  bullet_->world.getDispatchInfo().m_timeStep = time_step;
-  bullet_->world.performDiscreteCollisionDetection();
+  find_contacts(time_step);
   bullet_->solver.solve(free_bodies_, bullet_->manifolds(),
                         {time_step, overlap_undone, bullet_->ranges.bounce_speed, bullet_->ranges.clearance}, iterations);
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
@@ -235,6 +250,23 @@ void World::step(double time_step, int iterations) {
       free_bodies_[i]->proceedToTransform(next);
     }
   });
+}
+
+// As btCollisionWorld::performDiscreteCollisionDetection does it, with the boxes worked out on all threads.
+void World::find_contacts(double time_step) {
+  btCollisionObjectArray& objects = bullet_->world.getCollisionObjectArray();
+  std::vector<std::array<btVector3, 2>> boxes(static_cast<std::size_t>(objects.size()));
+  for_short_chunks(boxes.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      boxes[i] = swept_box(*objects[static_cast<int>(i)], bullet_->ranges.near);
+    }
+  });
+  for (int i = 0; i < objects.size(); ++i) {
+    bullet_->broadphase.setAabb(objects[i]->getBroadphaseHandle(), boxes[i][0], boxes[i][1], &bullet_->dispatcher);
+  }
+  bullet_->broadphase.calculateOverlappingPairs(&bullet_->dispatcher);
+  bullet_->world.getDispatchInfo().m_timeStep = time_step;
+  bullet_->dispatcher.dispatchAllCollisionPairs(&bullet_->pairs, bullet_->world.getDispatchInfo(), &bullet_->dispatcher);
 }
 
 std::size_t World::block_count() const {

@@ -53,6 +53,7 @@ class World {
   struct Bullet;
   struct Item;
   void sort_from_the_rim_up(const Eigen::Vector3d& gravity);
+  void find_contacts(double time_step);
   void add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material);
 
   std::unique_ptr<Bullet> bullet_;

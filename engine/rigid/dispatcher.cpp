@@ -1,0 +1,136 @@
+#include "engine/rigid/dispatcher.h"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "engine/base/phases.h"
+
+namespace scree::rigid {
+
+namespace {
+
+// The two bodies of a pair as Bullet's algorithms take them.
+struct WrappedPair {
+  explicit WrappedPair(const btBroadphasePair& pair) : first(wrap(pair.m_pProxy0)), second(wrap(pair.m_pProxy1)) {}
+  [[nodiscard]] bool of_polyhedra() const {
+    return first.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE &&
+           second.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE;
+  }
+
+  btCollisionObjectWrapper first;
+  btCollisionObjectWrapper second;
+
+ private:
+  static btCollisionObjectWrapper wrap(const btBroadphaseProxy* proxy) {
+    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+    return {nullptr, object->getCollisionShape(), object, object->getWorldTransform(), -1, -1};
+  }
+};
+
+PolyhedronCollision& algorithm_of(const btBroadphasePair& pair) {
+  return static_cast<PolyhedronCollision&>(*pair.m_algorithm);
+}
+
+int block_of(const btBroadphaseProxy* proxy) {
+  return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
+}
+
+// What is noted in a pair that was found far apart, so that a look at it reads nothing else: its blocks, from 1 on.
+struct FarBlocks {
+  std::int32_t first, second;
+};
+static_assert(sizeof(FarBlocks) == sizeof(void*));
+
+void note(btBroadphasePair& pair, bool far) {
+  const FarBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
+  pair.m_internalInfo1 = far ? std::bit_cast<void*>(blocks) : nullptr;
+}
+
+bool stays_far(const btBroadphasePair& pair, const Homes& homes) {
+  if (pair.m_internalInfo1 == nullptr) return false;
+  const auto [first, second] = std::bit_cast<FarBlocks>(pair.m_internalInfo1);
+  return homes.at_home(first - 1) && homes.at_home(second - 1);
+}
+
+}  // namespace
+
+Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes)
+    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes) {
+  setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+}
+
+void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info, btDispatcher*) {
+  btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
+  if (flights_.count() > 0) end_flights(pairs);
+  add_algorithms(pairs);
+  std::vector<std::vector<News>> news(chunk_count(static_cast<std::size_t>(pairs.size())));
+  for_short_chunks(static_cast<std::size_t>(pairs.size()), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      look(pairs[static_cast<int>(i)], static_cast<int>(i), info.m_timeStep, news[chunk.number]);
+    }
+  });
+  for (const auto& part : news) {
+    for (const News& at : part) {
+      const WrappedPair wrapped(pairs[at.pair]);
+      if (at.contact) {
+        auto& algorithm = algorithm_of(pairs[at.pair]);
+        algorithm.claim(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *at.contact);
+      } else {
+        btManifoldResult result(&wrapped.first, &wrapped.second);
+        pairs[at.pair].m_algorithm->processCollision(&wrapped.first, &wrapped.second, info, &result);
+      }
+    }
+  }
+  run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
+    for (const News& at : news[static_cast<std::size_t>(part)]) {
+      if (!at.contact) continue;
+      const WrappedPair wrapped(pairs[at.pair]);
+      auto& algorithm = algorithm_of(pairs[at.pair]);
+      algorithm.take(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *at.contact);
+    }
+  });
+}
+
+void Dispatcher::look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const {
+  if (pair.m_algorithm == nullptr || stays_far(pair, homes_)) return;
+  const WrappedPair wrapped(pair);
+  if (!wrapped.of_polyhedra()) {
+    news.push_back({number, std::nullopt});
+    return;
+  }
+  PolyhedronCollision& algorithm = algorithm_of(pair);
+  const auto looked_at = algorithm.pair_of(wrapped.first, wrapped.second, time_step);
+  const auto contact = algorithm.look(looked_at);
+  note(pair, algorithm.far(looked_at) && (!contact || contact->count == 0));
+  if (contact) news.push_back({number, contact});
+}
+
+void Dispatcher::end_flights(const btBroadphasePairArray& pairs) {
+  for (int i = 0; i < pairs.size(); ++i) flights_.meet(block_of(pairs[i].m_pProxy0), block_of(pairs[i].m_pProxy1));
+}
+
+// Bullet makes them one at a time; few pairs are new.
+void Dispatcher::add_algorithms(btBroadphasePairArray& pairs) {
+  std::vector<std::vector<int>> without(chunk_count(static_cast<std::size_t>(pairs.size())));
+  for_short_chunks(static_cast<std::size_t>(pairs.size()), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const btBroadphasePair& pair = pairs[static_cast<int>(i)];
+      if (pair.m_algorithm != nullptr || flights_.together(block_of(pair.m_pProxy0), block_of(pair.m_pProxy1))) continue;
+      without[chunk.number].push_back(static_cast<int>(i));
+    }
+  });
+  for (const auto& part : without) {
+    for (const int i : part) {
+      const WrappedPair wrapped(pairs[i]);
+      if (!needsCollision(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject())) continue;
+      pairs[i].m_algorithm = findAlgorithm(&wrapped.first, &wrapped.second, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    }
+  }
+}
+
+}  // namespace scree::rigid

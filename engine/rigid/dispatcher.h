@@ -1,0 +1,40 @@
+// Which pairs are looked at in a step, and by whom.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+
+#include "engine/rigid/flights.h"
+#include "engine/rigid/homes.h"
+#include "engine/rigid/polyhedron_collision.h"
+
+namespace scree::rigid {
+
+// Looks at the pairs of polyhedra on all threads, then takes over what is new in the order of the pairs: the same contacts in
+// the same order for any number of threads.
+class Dispatcher final : public btCollisionDispatcher {
+ public:
+  // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
+  // home.
+  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes);
+  void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
+                                 btDispatcher* dispatcher) override;
+
+ private:
+  struct News {
+    int pair;
+    std::optional<ContactPoints> contact;  // nothing: left to Bullet
+  };
+  void end_flights(const btBroadphasePairArray& pairs);
+  void add_algorithms(btBroadphasePairArray& pairs);
+  // Appends what is new of the pair with this number.
+  void look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const;
+
+  Flights& flights_;
+  const Homes& homes_;
+};
+
+}  // namespace scree::rigid
