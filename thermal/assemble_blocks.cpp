@@ -83,17 +83,17 @@ double heat_per_volume(const Material& material, double temperature) {
   return *material.density * (*material.specific_heat)(temperature);
 }
 
-// Adds the row of a node of the block: `entries` of its corners of cells.
-template <int dim>
+// Adds the row of a node of the block: `entries` of its corners of cells. `row_of` a node is the column that it has.
+template <int dim, class RowOf>
 void add_row(const Pieces<dim>& pieces, const Incidence& incidence, int node, BlockId block,
-             std::array<double, 8> CornerOfCell::*entries, RowSum& sum) {
+             std::array<double, 8> CornerOfCell::*entries, const RowOf& row_of, RowSum& sum) {
   const bool cells = has_cells(pieces.mesh, block);
   for (const std::uint32_t piece : incidence.of(node)) {
     if (cells) {
       pieces.corner(piece, node, block, [&](const CornerOfCell& corner, const mesh::Cell& cell) {
         for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) {
           const double entry = (corner.*entries)[i];
-          if (entry != 0) sum.add(cell.nodes[i].value(), entry);
+          if (entry != 0) sum.add(row_of(cell.nodes[i]), entry);
         }
       });
       continue;
@@ -103,28 +103,57 @@ void add_row(const Pieces<dim>& pieces, const Incidence& incidence, int node, Bl
         element_conductance<dim>(corner_points<dim>(pieces.mesh, nodes), pieces.conductivity[block]);
     int corner = 0;
     while (nodes[corner].value() != node) ++corner;
-    for (int i = 0; i <= dim; ++i) sum.add(nodes[i].value(), conductance(corner, i));
+    for (int i = 0; i <= dim; ++i) sum.add(row_of(nodes[i]), conductance(corner, i));
   }
 }
 
 // The rows of the nodes that have any in this matrix; the rest are empty.
 template <int dim>
-SparseMatrix rows_of(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const HeatModel& model,
-                     const Incidence& incidence, Which which) {
-  const mesh::BlockMesh<dim>& mesh = pieces.mesh;
-  return assembled(static_cast<int>(mesh.nodes.size()), [&](int node, RowSum& sum) {
-    const BlockId block = model.blocks[NodeId(static_cast<std::size_t>(node))];
-    const Material& material = materials[mesh.bodies[mesh.blocks[block].body].material];
+class Rows {
+ public:
+  Rows(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const HeatModel& model,
+       const Incidence& incidence, const std::optional<RowNumbering>& numbering)
+      : pieces_(pieces), materials_(materials), model_(model), incidence_(incidence), numbering_(numbering) {}
+
+  [[nodiscard]] SparseMatrix of(Which which) const {
+    if (!numbering_) {
+      return assembled(static_cast<int>(pieces_.mesh.nodes.size()), [&](int node, RowSum& sum) {
+        return add(
+            node, which, [](NodeId other) { return other.value(); }, sum);
+      });
+    }
+    return assembled(static_cast<int>(numbering_->first.size()), [&](int row, RowSum& sum) {
+      double factor = 1;
+      for (const std::uint32_t node : numbering_->nodes.of(row)) {
+        factor = add(
+            static_cast<int>(node), which, [&](NodeId other) { return numbering_->rows[other].value(); }, sum);
+      }
+      return factor;
+    });
+  }
+
+ private:
+  // Returns what the row is to be multiplied by.
+  template <class RowOf>
+  double add(int node, Which which, const RowOf& row_of, RowSum& sum) const {
+    const BlockId block = model_.blocks[NodeId(static_cast<std::size_t>(node))];
+    const Material& material = materials_[pieces_.mesh.bodies[pieces_.mesh.blocks[block].body].material];
     if (which == Which::shared) {
-      add_row(pieces, incidence, node, block, &CornerOfCell::shared, sum);
-      return heat_per_volume(material, model.initial[node]);
+      add_row(pieces_, incidence_, node, block, &CornerOfCell::shared, row_of, sum);
+      return heat_per_volume(material, model_.initial[node]);
     }
     if (material.conductivity->varies() == (which == Which::unit)) {
-      add_row(pieces, incidence, node, block, &CornerOfCell::conductance, sum);
+      add_row(pieces_, incidence_, node, block, &CornerOfCell::conductance, row_of, sum);
     }
-    return 1.0;
-  });
-}
+    return 1;
+  }
+
+  const Pieces<dim>& pieces_;
+  const Table<MaterialId, Material>& materials_;
+  const HeatModel& model_;
+  const Incidence& incidence_;
+  const std::optional<RowNumbering>& numbering_;
+};
 
 template <int dim>
 void set_capacities(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const Incidence& incidence,
@@ -152,20 +181,21 @@ void set_capacities(const Pieces<dim>& pieces, const Table<MaterialId, Material>
 
 template <int dim>
 SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, SpaceOrder order,
-                             HeatModel& model) {
+                             const std::optional<RowNumbering>& numbering, HeatModel& model) {
   const Incidence incidence = pieces_at_nodes(mesh, model.lumped);
   const Pieces<dim> pieces(mesh, materials, order);
   set_capacities(pieces, materials, incidence, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
                                       [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
-  if (any_varies) rows_of(pieces, materials, model, incidence, Which::unit).swap(model.varying->unit_conductance);
-  if (order == SpaceOrder::fourth) {
-    rows_of(pieces, materials, model, incidence, Which::shared).swap(model.shared_capacity.emplace());
-  }
-  return rows_of(pieces, materials, model, incidence, Which::constant);
+  const Rows<dim> rows(pieces, materials, model, incidence, numbering);
+  if (any_varies) rows.of(Which::unit).swap(model.varying->unit_conductance);
+  if (order == SpaceOrder::fourth) rows.of(Which::shared).swap(model.shared_capacity.emplace());
+  return rows.of(Which::constant);
 }
 
-template SparseMatrix assemble_blocks<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, SpaceOrder, HeatModel&);
-template SparseMatrix assemble_blocks<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&, SpaceOrder, HeatModel&);
+template SparseMatrix assemble_blocks<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, SpaceOrder,
+                                         const std::optional<RowNumbering>&, HeatModel&);
+template SparseMatrix assemble_blocks<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&, SpaceOrder,
+                                         const std::optional<RowNumbering>&, HeatModel&);
 
 }  // namespace scree::thermal

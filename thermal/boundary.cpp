@@ -218,7 +218,7 @@ class Applier {
 
   const mesh::BlockMesh<dim>& mesh_;
   HeatModel& model_;
-  double until_;  // end of the run [s]
+  double until_;                                                 // end of the run [s]
   std::optional<Table<FaceId, mesh::WeightedFace<dim>>> faces_;  // once something passes heat through faces
   Table<BodyId, std::vector<BlockId>> blocks_of_;
   double rounding_ = 0;         // [m]

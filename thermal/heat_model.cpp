@@ -13,7 +13,7 @@
 #include "thermal/fourth_order.h"
 #include "thermal/joint_conduction.h"
 #include "thermal/problems.h"
-#include "thermal/row_order.h"
+#include "thermal/row_numbering.h"
 #include "thermal/share_rows.h"
 #include "thermal/tied_nodes.h"
 
@@ -191,11 +191,15 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   set_varying(mesh, materials, model);
   apply_boundaries(mesh, options, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
-  assemble_blocks(mesh, materials, options.space_order, model).swap(model.conductance);
   // Fourth order knows no neighbours but its own, and a node of two materials no one curve.
   std::optional<Table<NodeId, NodeId>> tied;
   if (!model.varying && options.space_order == SpaceOrder::second) tied = tied_nodes(mesh, contacts, joints, model);
-  if (model.lumped || tied || is_worth_ordering(mesh)) share_rows(mesh, materials, tied, model);
+  if (tied) {
+    for (const NodeId node : mesh.nodes.ids()) model.tied_nodes += (*tied)[node] != node ? 1 : 0;
+  }
+  const auto numbering = number_rows(mesh, model, tied);
+  assemble_blocks(mesh, materials, options.space_order, numbering, model).swap(model.conductance);
+  if (numbering) share_rows(mesh, materials, *numbering, model);
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;
 }

@@ -5,41 +5,12 @@
 #include <map>
 #include <utility>
 
-#include "engine/base/check.h"
 #include "engine/mesh/cells.h"
 #include "thermal/block_conduction.h"
-#include "thermal/incidence.h"
-#include "thermal/row_assembly.h"
-#include "thermal/row_order.h"
 
 namespace scree::thermal {
 
 namespace {
-
-// The row of each node, and the first node of each row.
-struct Numbering {
-  Table<NodeId, NodeId> rows;
-  std::vector<NodeId> nodes;
-};
-
-template <int dim>
-Numbering number_rows(const mesh::BlockMesh<dim>& mesh, const HeatModel& model,
-                      const std::optional<Table<NodeId, NodeId>>& tied) {
-  Table<NodeId, NodeId> first(mesh.nodes.size());  // of those that share a row
-  Numbering numbering;
-  for (const BlockId b : mesh.blocks.ids()) {
-    const bool one_row = model.lumped && model.lumped->contain(b);
-    for (const NodeId node : mesh.blocks[b].nodes) {
-      first[node] = one_row ? mesh.blocks[b].nodes[0] : tied ? (*tied)[node] : node;
-      if (first[node] == node) numbering.nodes.push_back(node);
-    }
-  }
-  if (is_worth_ordering(mesh)) numbering.nodes = in_space_order(std::move(numbering.nodes), model.blocks, model.places);
-  numbering.rows = Table<NodeId, NodeId>(mesh.nodes.size());
-  for (std::size_t row = 0; row < numbering.nodes.size(); ++row) numbering.rows[numbering.nodes[row]] = NodeId(row);
-  for (const NodeId node : mesh.nodes.ids()) numbering.rows[node] = numbering.rows[first[node]];
-  return numbering;
-}
 
 struct MeanTemperature {
   double mass = 0;    // [kg]
@@ -68,15 +39,15 @@ MeanTemperature mean_temperature(const mesh::BlockMesh<dim>& mesh, const mesh::B
   return result;
 }
 
-Eigen::VectorXd of_rows(const Eigen::VectorXd& of_nodes, const Numbering& numbering) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(numbering.nodes.size()));
+Eigen::VectorXd of_rows(const Eigen::VectorXd& of_nodes, const RowNumbering& numbering) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(numbering.first.size()));
   Eigen::Index row = 0;
-  for (const NodeId node : numbering.nodes) values[row++] = of_nodes[node.value()];
+  for (const NodeId node : numbering.first) values[row++] = of_nodes[node.value()];
   return values;
 }
 
-Eigen::VectorXd summed(const Eigen::VectorXd& of_nodes, const Numbering& numbering) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbering.nodes.size()));
+Eigen::VectorXd summed(const Eigen::VectorXd& of_nodes, const RowNumbering& numbering) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbering.first.size()));
   for (const NodeId node : numbering.rows.ids()) sums[numbering.rows[node].value()] += of_nodes[node.value()];
   return sums;
 }
@@ -84,10 +55,10 @@ Eigen::VectorXd summed(const Eigen::VectorXd& of_nodes, const Numbering& numberi
 // The mean by capacity of each row's nodes, as a difference to the first of them, so that equal temperatures have it to the
 // bit.
 Eigen::VectorXd mean(const Eigen::VectorXd& of_nodes, const Eigen::VectorXd& capacity, const Eigen::VectorXd& row_capacity,
-                     const Numbering& numbering) {
+                     const RowNumbering& numbering) {
   Eigen::VectorXd difference = Eigen::VectorXd::Zero(of_nodes.size());
   for (const NodeId node : numbering.rows.ids()) {
-    const NodeId first = numbering.nodes[numbering.rows[node].index()];
+    const NodeId first = numbering.first[numbering.rows[node].index()];
     difference[node.value()] = capacity[node.value()] * (of_nodes[node.value()] - of_nodes[first.value()]);
   }
   const Eigen::VectorXd sums = summed(difference, numbering);
@@ -98,24 +69,8 @@ Eigen::VectorXd mean(const Eigen::VectorXd& of_nodes, const Eigen::VectorXd& cap
   return means;
 }
 
-// P^T K P. Each of its entries is a sum over blocks, in the order of their nodes: the same for an entry and its mirror image.
-SparseMatrix of_rows(const SparseMatrix& of_nodes, const Numbering& numbering) {
-  const Incidence nodes_of(numbering.nodes.size(), [&](const auto& visit) {
-    for (const NodeId node : numbering.rows.ids())
-      visit(numbering.rows[node].value(), static_cast<std::uint32_t>(node.index()));
-  });
-  return assembled(static_cast<int>(numbering.nodes.size()), [&](int row, RowSum& sum) {
-    for (const std::uint32_t node : nodes_of.of(row)) {
-      for (SparseMatrix::InnerIterator entry(of_nodes, static_cast<Eigen::Index>(node)); entry; ++entry) {
-        sum.add(numbering.rows[NodeId(static_cast<std::size_t>(entry.row()))].value(), entry.value());
-      }
-    }
-    return 1.0;
-  });
-}
-
 // A node's entry becomes its row's; equal ones are added up unless a function makes them differ from place to place.
-NodeShares of_rows(const NodeShares& on, const Numbering& numbering, bool by_place) {
+NodeShares of_rows(const NodeShares& on, const RowNumbering& numbering, bool by_place) {
   NodeShares result;
   std::vector<Eigen::Index> kept;
   for (std::size_t i = 0; i < on.nodes.size(); ++i) {
@@ -132,7 +87,7 @@ NodeShares of_rows(const NodeShares& on, const Numbering& numbering, bool by_pla
   return result;
 }
 
-void number_conditions(const Numbering& numbering, HeatModel& model) {
+void number_conditions(const RowNumbering& numbering, HeatModel& model) {
   std::map<NodeId, int> holds;
   for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
     holds.emplace(numbering.rows[model.fixed_nodes[i]], model.fixed_hold[i]);
@@ -150,27 +105,25 @@ void number_conditions(const Numbering& numbering, HeatModel& model) {
   }
 }
 
-void number_properties(const Numbering& numbering, VaryingProperties& varying) {
+void number_properties(const RowNumbering& numbering, VaryingProperties& varying) {
   Table<NodeId, int> material;
-  for (const NodeId node : numbering.nodes) material.push_back(varying.material[node]);
+  for (const NodeId node : numbering.first) material.push_back(varying.material[node]);
   varying.material = std::move(material);
   varying.mass = of_rows(varying.mass, numbering);
-  if (varying.unit_conductance.rows() > 0) varying.unit_conductance = of_rows(varying.unit_conductance, numbering);
 }
 
-void number_fields(const Numbering& numbering, HeatModel& model) {
+void number_fields(const RowNumbering& numbering, HeatModel& model) {
   Table<NodeId, BlockId> blocks;
-  for (const NodeId node : numbering.nodes) blocks.push_back(model.blocks[node]);
+  for (const NodeId node : numbering.first) blocks.push_back(model.blocks[node]);
   model.blocks = std::move(blocks);
-  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(numbering.nodes.size()));
-  for (std::size_t row = 0; row < numbering.nodes.size(); ++row) {
-    places.col(static_cast<Eigen::Index>(row)) = model.places.col(numbering.nodes[row].value());
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(numbering.first.size()));
+  for (std::size_t row = 0; row < numbering.first.size(); ++row) {
+    places.col(static_cast<Eigen::Index>(row)) = model.places.col(numbering.first[row].value());
   }
   model.places = std::move(places);
   Eigen::VectorXd capacity = summed(model.capacity, numbering);
   model.initial = mean(model.initial, model.capacity, capacity, numbering);
   model.capacity = std::move(capacity);
-  of_rows(model.conductance, numbering).swap(model.conductance);
   if (model.varying) number_properties(numbering, *model.varying);
 }
 
@@ -190,7 +143,7 @@ void set_lumped(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Materi
 // Of each lumped block, while temperatures are still those of nodes.
 template <int dim>
 std::vector<MeanTemperature> mean_temperatures(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                               const Numbering& numbering, HeatModel& model) {
+                                               const RowNumbering& numbering, HeatModel& model) {
   std::vector<MeanTemperature> means;
   for (LumpedBlock& block : model.lumped->all()) {
     const mesh::Block& of = mesh.blocks[block.block];
@@ -204,22 +157,17 @@ std::vector<MeanTemperature> mean_temperatures(const mesh::BlockMesh<dim>& mesh,
 }  // namespace
 
 template <int dim>
-void share_rows(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                const std::optional<Table<NodeId, NodeId>>& tied, HeatModel& model) {
-  SCREE_EXPECT(!tied || !model.varying);
-  const Numbering numbering = number_rows(mesh, model, tied);
+void share_rows(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const RowNumbering& numbering,
+                HeatModel& model) {
   std::vector<MeanTemperature> means;
   if (model.lumped) means = mean_temperatures(mesh, materials, numbering, model);
   number_fields(numbering, model);
   number_conditions(numbering, model);
   if (model.lumped) set_lumped(mesh, materials, means, model);
-  for (const NodeId node : mesh.nodes.ids()) model.tied_nodes += tied && (*tied)[node] != node ? 1 : 0;
   model.rows = NodeMap(numbering.rows);
 }
 
-template void share_rows<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
-                            const std::optional<Table<NodeId, NodeId>>&, HeatModel&);
-template void share_rows<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
-                            const std::optional<Table<NodeId, NodeId>>&, HeatModel&);
+template void share_rows<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, const RowNumbering&, HeatModel&);
+template void share_rows<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&, const RowNumbering&, HeatModel&);
 
 }  // namespace scree::thermal
