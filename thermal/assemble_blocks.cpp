@@ -122,14 +122,17 @@ class Rows {
             node, which, [](NodeId other) { return other.value(); }, sum);
       });
     }
-    return assembled(static_cast<int>(numbering_->first.size()), [&](int row, RowSum& sum) {
-      double factor = 1;
-      for (const std::uint32_t node : numbering_->nodes.of(row)) {
-        factor = add(
-            static_cast<int>(node), which, [&](NodeId other) { return numbering_->rows[other].value(); }, sum);
-      }
-      return factor;
-    });
+    return assembled(
+        static_cast<int>(numbering_->first.size()),
+        [&](int row, RowSum& sum) {
+          double factor = 1;
+          for (const std::uint32_t node : numbering_->nodes.of(row)) {
+            factor = add(
+                static_cast<int>(node), which, [&](NodeId other) { return numbering_->rows[other].value(); }, sum);
+          }
+          return factor;
+        },
+        numbering_->rows.in_mesh_order());
   }
 
  private:

@@ -179,10 +179,13 @@ void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<
   if (contacts.contacts.empty()) return;
   const auto size = static_cast<int>(conductance.rows());
   const JointRows<dim> joints(contacts, conduction, form, rows, static_cast<std::size_t>(size));
-  const SparseMatrix of_joints = assembled(size, [&](int row, RowSum& sum) {
-    joints.add_row(row, sum);
-    return 1.0;
-  });
+  const SparseMatrix of_joints = assembled(
+      size,
+      [&](int row, RowSum& sum) {
+        joints.add_row(row, sum);
+        return 1.0;
+      },
+      rows.in_mesh_order());
   sum_of(conductance, of_joints).swap(conductance);
 }
 

@@ -1,5 +1,7 @@
 #include "thermal/row_assembly.h"
 
+#include <numeric>
+
 #include "thermal/sparse_sum.h"
 
 namespace scree::thermal {
@@ -15,16 +17,27 @@ void RowSum::append_to(RowChunk& chunk, double factor) {
   row_.clear();
 }
 
-SparseMatrix joined(const std::vector<RowChunk>& chunks, int size) {
-  std::vector<int> offset(chunks.size() + 1, 0);
-  for (std::size_t c = 0; c < chunks.size(); ++c) offset[c + 1] = offset[c] + static_cast<int>(chunks[c].columns.size());
+SparseMatrix joined(const std::vector<RowChunk>& chunks, int size, std::span<const int> order) {
+  // Calls use(row, begin, end) with each row of a chunk and where its entries stand in that.
+  const auto for_each_row = [&](std::size_t c, const auto& use) {
+    for (int i = 0; i < std::ssize(chunks[c].ends); ++i) {
+      const int number = static_cast<int>(c) * rows_in_chunk + i;
+      use(order.empty() ? number : order[number], i == 0 ? 0 : chunks[c].ends[i - 1], chunks[c].ends[i]);
+    }
+  };
+  std::vector<int> offset(static_cast<std::size_t>(size) + 1, 0);
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    for_each_row(c, [&](int row, int begin, int end) { offset[row + 1] = end - begin; });
+  }
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
   SparseMatrix matrix = uninitialised(size, offset.back());
+  std::copy(offset.begin(), offset.end(), matrix.outerIndexPtr());
 #pragma omp parallel for schedule(static) if (size >= rows_worth_sharing)
   for (std::size_t c = 0; c < chunks.size(); ++c) {
-    std::copy(chunks[c].columns.begin(), chunks[c].columns.end(), matrix.innerIndexPtr() + offset[c]);
-    std::copy(chunks[c].values.begin(), chunks[c].values.end(), matrix.valuePtr() + offset[c]);
-    int* end = matrix.outerIndexPtr() + c * rows_in_chunk + 1;
-    for (const int row_end : chunks[c].ends) *end++ = offset[c] + row_end;
+    for_each_row(c, [&](int row, int begin, int end) {
+      std::copy(chunks[c].columns.begin() + begin, chunks[c].columns.begin() + end, matrix.innerIndexPtr() + offset[row]);
+      std::copy(chunks[c].values.begin() + begin, chunks[c].values.begin() + end, matrix.valuePtr() + offset[row]);
+    });
   }
   return matrix;
 }

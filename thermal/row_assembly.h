@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "engine/base/threads.h"
@@ -45,12 +46,13 @@ class RowSum {
 
 inline constexpr int rows_in_chunk = 4096;
 
-// The chunks, one behind the other, as a square matrix.
-SparseMatrix joined(const std::vector<RowChunk>& chunks, int size);
+// A square matrix of the rows in the chunks: as they come, or the k-th of them all is row order[k].
+SparseMatrix joined(const std::vector<RowChunk>& chunks, int size, std::span<const int> order);
 
-// A square matrix. fill(row, sum) adds the entries of a row and returns what they are to be multiplied by.
+// A square matrix. fill(row, sum) adds the entries of a row and returns what they are to be multiplied by; it is called for the
+// rows as they come, or in this order.
 template <class Fill>
-SparseMatrix assembled(int size, const Fill& fill) {
+SparseMatrix assembled(int size, const Fill& fill, std::span<const int> order = {}) {
   std::vector<RowChunk> chunks(static_cast<std::size_t>((size + rows_in_chunk - 1) / rows_in_chunk));
 #pragma omp parallel if (size >= rows_worth_sharing)
   {
@@ -58,10 +60,13 @@ SparseMatrix assembled(int size, const Fill& fill) {
 #pragma omp for schedule(dynamic)
     for (std::size_t c = 0; c < chunks.size(); ++c) {
       const int first = static_cast<int>(c) * rows_in_chunk;
-      for (int row = first; row < std::min(size, first + rows_in_chunk); ++row) sum.append_to(chunks[c], fill(row, sum));
+      for (int k = first; k < std::min(size, first + rows_in_chunk); ++k) {
+        const int row = order.empty() ? k : order[k];
+        sum.append_to(chunks[c], fill(row, sum));
+      }
     }
   }
-  return joined(chunks, size);
+  return joined(chunks, size, order);
 }
 
 }  // namespace scree::thermal

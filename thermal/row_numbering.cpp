@@ -20,6 +20,7 @@ std::optional<RowNumbering> number_rows(const mesh::BlockMesh<dim>& mesh, const 
       if (first_of[node] == node) first.push_back(node);
     }
   }
+  const std::vector<NodeId> in_mesh_order = first;
   if (in_order) first = in_space_order(std::move(first), model.blocks, model.places);
   Table<NodeId, NodeId> rows(mesh.nodes.size());
   for (std::size_t row = 0; row < first.size(); ++row) rows[first[row]] = NodeId(row);
@@ -27,7 +28,10 @@ std::optional<RowNumbering> number_rows(const mesh::BlockMesh<dim>& mesh, const 
   Incidence nodes(first.size(), [&](const auto& visit) {
     for (const NodeId node : rows.ids()) visit(rows[node].value(), static_cast<std::uint32_t>(node.index()));
   });
-  return RowNumbering{std::move(rows), std::move(first), std::move(nodes)};
+  std::vector<int> order;
+  order.reserve(first.size());
+  for (const NodeId node : in_mesh_order) order.push_back(rows[node].value());
+  return RowNumbering{NodeMap(std::move(rows), std::move(order)), std::move(first), std::move(nodes)};
 }
 
 template std::optional<RowNumbering> number_rows<2>(const mesh::BlockMesh<2>&, const HeatModel&,

@@ -6,13 +6,14 @@
 
 #include "thermal/heat_model.h"
 #include "thermal/incidence.h"
+#include "thermal/node_map.h"
 
 namespace scree::thermal {
 
 struct RowNumbering {
-  Table<NodeId, NodeId> rows;  // of each node
-  std::vector<NodeId> first;   // node of each row
-  Incidence nodes;             // of each row, ascending
+  NodeMap rows;
+  std::vector<NodeId> first;  // node of each row
+  Incidence nodes;            // of each row, ascending
 };
 
 // One row for all nodes of a lumped block, one for the nodes that are one (`tied`, tied_nodes.h), in the order of space where

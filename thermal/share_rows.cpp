@@ -164,7 +164,7 @@ void share_rows(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Materi
   number_fields(numbering, model);
   number_conditions(numbering, model);
   if (model.lumped) set_lumped(mesh, materials, means, model);
-  model.rows = NodeMap(numbering.rows);
+  model.rows = numbering.rows;
 }
 
 template void share_rows<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&, const RowNumbering&, HeatModel&);
