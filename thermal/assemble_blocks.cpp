@@ -83,17 +83,17 @@ double heat_per_volume(const Material& material, double temperature) {
   return *material.density * (*material.specific_heat)(temperature);
 }
 
-// Adds the row of a node of the block: `entries` of its corners of cells. `row_of` a node is the column that it has.
-template <int dim, class RowOf>
+// Adds the row of a node of the block, `entries` of its corners of cells, to that of the model.
+template <int dim>
 void add_row(const Pieces<dim>& pieces, const Incidence& incidence, int node, BlockId block,
-             std::array<double, 8> CornerOfCell::*entries, const RowOf& row_of, RowSum& sum) {
+             std::array<double, 8> CornerOfCell::*entries, const NodeMap& rows, RowSum& sum) {
   const bool cells = has_cells(pieces.mesh, block);
   for (const std::uint32_t piece : incidence.of(node)) {
     if (cells) {
       pieces.corner(piece, node, block, [&](const CornerOfCell& corner, const mesh::Cell& cell) {
         for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) {
           const double entry = (corner.*entries)[i];
-          if (entry != 0) sum.add(row_of(cell.nodes[i]), entry);
+          if (entry != 0) sum.add(rows[cell.nodes[i]].value(), entry);
         }
       });
       continue;
@@ -103,7 +103,7 @@ void add_row(const Pieces<dim>& pieces, const Incidence& incidence, int node, Bl
         element_conductance<dim>(corner_points<dim>(pieces.mesh, nodes), pieces.conductivity[block]);
     int corner = 0;
     while (nodes[corner].value() != node) ++corner;
-    for (int i = 0; i <= dim; ++i) sum.add(row_of(nodes[i]), conductance(corner, i));
+    for (int i = 0; i <= dim; ++i) sum.add(rows[nodes[i]].value(), conductance(corner, i));
   }
 }
 
@@ -113,40 +113,37 @@ class Rows {
  public:
   Rows(const Pieces<dim>& pieces, const Table<MaterialId, Material>& materials, const HeatModel& model,
        const Incidence& incidence, const std::optional<RowNumbering>& numbering)
-      : pieces_(pieces), materials_(materials), model_(model), incidence_(incidence), numbering_(numbering) {}
+      : pieces_(pieces),
+        materials_(materials),
+        model_(model),
+        incidence_(incidence),
+        numbering_(numbering),
+        rows_(numbering ? numbering->rows : identity_) {}
 
   [[nodiscard]] SparseMatrix of(Which which) const {
     if (!numbering_) {
-      return assembled(static_cast<int>(pieces_.mesh.nodes.size()), [&](int node, RowSum& sum) {
-        return add(
-            node, which, [](NodeId other) { return other.value(); }, sum);
-      });
+      return assembled(static_cast<int>(pieces_.mesh.nodes.size()),
+                       [&](int node, RowSum& sum) { return add(node, which, sum); });
     }
-    return assembled(
-        static_cast<int>(numbering_->first.size()),
-        [&](int row, RowSum& sum) {
-          double factor = 1;
-          for (const std::uint32_t node : numbering_->nodes.of(row)) {
-            factor = add(
-                static_cast<int>(node), which, [&](NodeId other) { return numbering_->rows[other].value(); }, sum);
-          }
-          return factor;
-        },
-        numbering_->rows.in_mesh_order());
+    const auto add_nodes = [&](int row, RowSum& sum) {
+      double factor = 1;
+      for (const std::uint32_t node : numbering_->nodes.of(row)) factor = add(static_cast<int>(node), which, sum);
+      return factor;
+    };
+    return assembled(static_cast<int>(numbering_->first.size()), add_nodes, rows_.in_mesh_order());
   }
 
  private:
   // Returns what the row is to be multiplied by.
-  template <class RowOf>
-  double add(int node, Which which, const RowOf& row_of, RowSum& sum) const {
+  double add(int node, Which which, RowSum& sum) const {
     const BlockId block = model_.blocks[NodeId(static_cast<std::size_t>(node))];
     const Material& material = materials_[pieces_.mesh.bodies[pieces_.mesh.blocks[block].body].material];
     if (which == Which::shared) {
-      add_row(pieces_, incidence_, node, block, &CornerOfCell::shared, row_of, sum);
+      add_row(pieces_, incidence_, node, block, &CornerOfCell::shared, rows_, sum);
       return heat_per_volume(material, model_.initial[node]);
     }
     if (material.conductivity->varies() == (which == Which::unit)) {
-      add_row(pieces_, incidence_, node, block, &CornerOfCell::conductance, row_of, sum);
+      add_row(pieces_, incidence_, node, block, &CornerOfCell::conductance, rows_, sum);
     }
     return 1;
   }
@@ -156,6 +153,8 @@ class Rows {
   const HeatModel& model_;
   const Incidence& incidence_;
   const std::optional<RowNumbering>& numbering_;
+  const NodeMap identity_;
+  const NodeMap& rows_;
 };
 
 template <int dim>

@@ -152,8 +152,8 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds ma
   });
 }
 
-// The rows of overlapping points, by batches.
-Batches ContactSolver::overlapping(std::vector<OverlapRow>& rows) const {
+// Into overlap_rows_; returns where its batches end.
+Batches ContactSolver::gather_overlaps() {
   Batches batches{std::vector<std::size_t>(batches_.ends.size(), 0)};
   const auto for_each_batch = [&](const auto& use) {
     run_phases(std::array<int, 1>{batches_.count()}, 1, [&](int, int batch) { use(static_cast<std::size_t>(batch)); });
@@ -162,12 +162,12 @@ Batches ContactSolver::overlapping(std::vector<OverlapRow>& rows) const {
     for (std::size_t i = batches_.ends[b]; i < batches_.ends[b + 1]; ++i) batches.ends[b + 1] += overlaps_[i] > 0 ? 1 : 0;
   });
   std::partial_sum(batches.ends.begin(), batches.ends.end(), batches.ends.begin());
-  rows.resize(batches.ends.back());
+  overlap_rows_.resize(batches.ends.back());
   for_each_batch([&](std::size_t b) {
     std::size_t next = batches.ends[b];
     for (std::size_t i = batches_.ends[b]; i < batches_.ends[b + 1]; ++i) {
       if (overlaps_[i] <= 0) continue;
-      OverlapRow& row = rows[next++];
+      OverlapRow& row = overlap_rows_[next++];
       row = {rows_[i].normal, rows_[i].bodies};
       row.normal.wanted = overlaps_[i];
       row.normal.applied = 0;
@@ -178,7 +178,7 @@ Batches ContactSolver::overlapping(std::vector<OverlapRow>& rows) const {
 
 // Takes the overlaps apart without giving the bodies velocity.
 void ContactSolver::undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations) {
-  const Batches batches = overlapping(overlap_rows_);
+  const Batches batches = gather_overlaps();
   if (overlap_rows_.empty()) return;
   for_short_chunks(changes_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {

@@ -45,18 +45,18 @@ class ContactSolver {
   bool order_rows(int slabs);
   void set_up(Manifolds manifolds, const StepLengths& step);
   void solve_rows(int iterations);
-  Batches overlapping(std::vector<OverlapRow>& rows) const;
+  Batches gather_overlaps();
   void undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations);
   void finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds);
 
   // Kept from step to step for their memory.
   std::vector<BodyStart> starts_;
   std::vector<BodyChange> changes_;
-  std::vector<Entry> entries_;    // one per manifold
-  std::vector<Touch> touches_;    // likewise
-  std::vector<ContactRow> rows_;  // by batches
-  std::vector<double> overlaps_;  // one per row, see overlap_impulse
-  std::vector<OverlapRow> overlap_rows_;
+  std::vector<Entry> entries_;            // one per manifold
+  std::vector<Touch> touches_;            // likewise
+  std::vector<ContactRow> rows_;          // by batches
+  std::vector<double> overlaps_;          // one per row, see overlap_impulse
+  std::vector<OverlapRow> overlap_rows_;  // by batches, those of points that overlap
   Batches batches_;
 };
 

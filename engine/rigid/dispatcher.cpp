@@ -78,8 +78,8 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
     for (const News& at : part) {
       const WrappedPair wrapped(pairs[at.pair]);
       if (at.contact) {
-        auto& algorithm = algorithm_of(pairs[at.pair]);
-        algorithm.claim(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *at.contact);
+        algorithm_of(pairs[at.pair])
+            .claim(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject(), *at.contact);
       } else {
         btManifoldResult result(&wrapped.first, &wrapped.second);
         pairs[at.pair].m_algorithm->processCollision(&wrapped.first, &wrapped.second, info, &result);

@@ -50,7 +50,7 @@ void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first
                                            const btDispatcherInfo& info, btManifoldResult* result) {
   const Pair pair = pair_of(*first, *second, info.m_timeStep);
   if (const auto contact = look(pair)) {
-    claim(pair, *contact);
+    claim(first->getCollisionObject(), second->getCollisionObject(), *contact);
     take(pair, *contact);
   }
   if (manifold_ != nullptr) result->setPersistentManifold(manifold_);
@@ -67,11 +67,11 @@ std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
   return std::nullopt;
 }
 
-void PolyhedronCollision::claim(const Pair& pair, const ContactPoints& contact) {
+void PolyhedronCollision::claim(const btCollisionObject* first, const btCollisionObject* second, const ContactPoints& contact) {
   if (contact.count == 0) {
     drop_manifold();
   } else if (manifold_ == nullptr) {
-    manifold_ = m_dispatcher->getNewManifold(pair.first->getCollisionObject(), pair.second->getCollisionObject());
+    manifold_ = m_dispatcher->getNewManifold(first, second);
   }
 }
 

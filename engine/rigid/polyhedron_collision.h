@@ -53,7 +53,7 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   // Moves the points with the pair, or returns new ones. Touches nothing but its own pair, so that many may look at once.
   [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
   // Makes room for new points, or gives up what there was. One at a time, for manifolds come from a common pool.
-  void claim(const Pair& pair, const ContactPoints& contact);
+  void claim(const btCollisionObject* first, const btCollisionObject* second, const ContactPoints& contact);
   // Then takes them over, if there are any. Touches nothing but its own pair.
   void take(const Pair& pair, const ContactPoints& contact);
   // Whether looks will find nothing to do as long as both blocks are at home.
