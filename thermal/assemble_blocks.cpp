@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/chunks.h"
 #include "engine/base/threads.h"
 #include "engine/mesh/cells.h"
 #include "thermal/incidence.h"
@@ -17,24 +18,37 @@ bool has_cells(const mesh::BlockMesh<dim>& mesh, BlockId block) {
   return mesh.blocks[block].cells.size() > 0;
 }
 
-// Of each node the cells, or in a block without cells the elements, that it belongs to, in their order.
+// Calls visit(node, piece) for the cells of a block, or if it has none for its elements, in their order.
+template <int dim, class Visit>
+void visit_pieces(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block, const Visit& visit) {
+  for (const CellId cell : block.cells) {
+    const mesh::Cell& corners = mesh.cells[cell];
+    for (std::size_t i = 0; i < mesh::corner_count(corners.kind); ++i) {
+      visit(corners.nodes[i].value(), static_cast<std::uint32_t>(cell.index()));
+    }
+  }
+  if (block.cells.size() > 0) return;
+  for (const ElementId element : block.elements) {
+    for (const NodeId node : mesh.elements[element]) visit(node.value(), static_cast<std::uint32_t>(element.index()));
+  }
+}
+
+// Blocks that have together as many nodes or more are a task for one thread.
+constexpr std::size_t nodes_in_task = 4096;
+
+// The pieces that each node belongs to; those of blocks that are lumped have none.
 template <int dim>
 Incidence pieces_at_nodes(const mesh::BlockMesh<dim>& mesh, const std::optional<LumpedBlocks>& lumped) {
+  std::vector<std::size_t> ends{0};
+  for (const mesh::Block& block : mesh.blocks) ends.push_back(ends.back() + block.nodes.size());
+  const std::vector<Chunk> tasks = chunks_by_size(ends, nodes_in_task);
   return Incidence(mesh.nodes.size(), [&](const auto& visit) {
-    for (const BlockId b : mesh.blocks.ids()) {
-      if (lumped && lumped->contain(b)) continue;
-      const mesh::Block& block = mesh.blocks[b];
-      for (const CellId cell : block.cells) {
-        const mesh::Cell& corners = mesh.cells[cell];
-        for (std::size_t i = 0; i < mesh::corner_count(corners.kind); ++i) {
-          visit(corners.nodes[i].value(), static_cast<std::uint32_t>(cell.index()));
-        }
+    for_chunks(tasks, [&](Chunk task) {
+      for (std::size_t i = task.begin; i < task.end; ++i) {
+        const BlockId block(i);
+        if (!lumped || !lumped->contain(block)) visit_pieces(mesh, mesh.blocks[block], visit);
       }
-      if (block.cells.size() > 0) continue;
-      for (const ElementId element : block.elements) {
-        for (const NodeId node : mesh.elements[element]) visit(node.value(), static_cast<std::uint32_t>(element.index()));
-      }
-    }
+    });
   });
 }
 

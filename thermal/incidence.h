@@ -10,7 +10,7 @@ namespace scree::thermal {
 
 class Incidence {
  public:
-  // for_each_use(visit) calls visit(row, piece) for all there are, the same twice over.
+  // for_each_use(visit) calls visit(row, piece) for all there are, the same twice over; those of one row on one thread.
   template <class ForEachUse>
   Incidence(std::size_t rows, const ForEachUse& for_each_use) : begin_(rows + 1, 0) {
     for_each_use([&](int row, std::uint32_t) { ++begin_[static_cast<std::size_t>(row) + 1]; });

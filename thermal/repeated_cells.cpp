@@ -1,9 +1,12 @@
 #include "thermal/repeated_cells.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string_view>
 #include <unordered_map>
+
+#include "engine/base/chunks.h"
 
 namespace scree::thermal {
 
@@ -12,6 +15,8 @@ namespace {
 // 0.6 kB each.
 constexpr std::size_t most_shapes = 4096;
 constexpr int bits_of_edge = 36;
+// Of the cells, each looked through by one thread, whatever the number of threads.
+constexpr std::size_t stretches = 32;
 
 // Much faster than std::llround.
 std::int64_t nearest(double value) {
@@ -76,7 +81,7 @@ typename RepeatedCells<dim>::Corners corners_of(const Shape<dim>& shape, SpaceOr
   return corners;
 }
 
-// The shapes of a mesh, numbered as they are met.
+// The shapes of some cells, numbered as they are met.
 template <int dim>
 class ShapeList {
  public:
@@ -84,25 +89,47 @@ class ShapeList {
     std::int32_t number;
     std::int32_t cells;  // that have it
   };
-  using Map = std::unordered_map<Shape<dim>, Entry, HashOfShape<dim>>;
 
-  // The number of the cell's shape, or -1 if there are too many.
-  std::int32_t number(const Shape<dim>& shape) {
-    if (last_ == shapes_.end() || !(last_->first == shape)) last_ = shapes_.find(shape);
-    if (last_ == shapes_.end()) {
-      if (shapes_.size() == most_shapes) return -1;
-      last_ = shapes_.emplace(shape, Entry{static_cast<std::int32_t>(shapes_.size()), 0}).first;
+  // The number of the shape, which so many cells more have, or -1 if there are too many shapes.
+  std::int32_t number(const Shape<dim>& shape, std::int32_t cells) {
+    if (last_ == map_.end() || !(last_->first == shape)) last_ = map_.find(shape);
+    if (last_ == map_.end()) {
+      if (map_.size() == most_shapes) return -1;
+      last_ = map_.emplace(shape, Entry{static_cast<std::int32_t>(map_.size()), 0}).first;
+      in_order_.push_back(&*last_);
     }
-    ++last_->second.cells;
+    last_->second.cells += cells;
     return last_->second.number;
   }
 
-  [[nodiscard]] const Map& shapes() const { return shapes_; }
+  using Map = std::unordered_map<Shape<dim>, Entry, HashOfShape<dim>>;
+  [[nodiscard]] const std::vector<const typename Map::value_type*>& in_order() const { return in_order_; }
 
  private:
-  Map shapes_;
-  typename Map::iterator last_ = shapes_.end();
+  Map map_;
+  std::vector<const typename Map::value_type*> in_order_;
+  typename Map::iterator last_ = map_.end();
 };
+
+// Of equal length, but for the last.
+std::vector<Chunk> stretches_of(std::size_t cells) {
+  const std::size_t length = cells / stretches + 1;
+  std::vector<Chunk> all;
+  for (std::size_t i = 0; i < stretches; ++i) {
+    all.push_back({i, std::min(cells, i * length), std::min(cells, (i + 1) * length)});
+  }
+  return all;
+}
+
+// Calls use(block, cell) for the cells of a stretch.
+template <int dim, class Use>
+void for_cells(const mesh::BlockMesh<dim>& mesh, Chunk stretch, const Use& use) {
+  for (const BlockId block : mesh.blocks.ids()) {
+    const auto& cells = mesh.blocks[block].cells;
+    const std::size_t end = std::min(cells.last(), stretch.end);
+    for (std::size_t cell = std::max(cells.first(), stretch.begin); cell < end; ++cell) use(block, CellId(cell));
+  }
+}
 
 }  // namespace
 
@@ -110,19 +137,32 @@ template <int dim>
 RepeatedCells<dim>::RepeatedCells(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Tensor<dim>>& conductivity,
                                   SpaceOrder order)
     : which_(mesh.cells.size(), -1) {
-  ShapeList<dim> list;
-  for (const BlockId block : mesh.blocks.ids()) {
-    for (const CellId cell : mesh.blocks[block].cells) {
-      which_[cell] = list.number(Shape<dim>(mesh.cells[cell], cell_points(mesh, mesh.cells[cell]), conductivity[block]));
+  if (mesh.cells.empty()) return;
+  const std::vector<Chunk> parts = stretches_of(which_.size());
+  std::array<ShapeList<dim>, stretches> lists;
+  for_chunks(parts, [&](Chunk stretch) {
+    for_cells(mesh, stretch, [&](BlockId block, CellId cell) {
+      const Shape<dim> shape(mesh.cells[cell], cell_points(mesh, mesh.cells[cell]), conductivity[block]);
+      which_[cell] = lists[stretch.number].number(shape, 1);
+    });
+  });
+  ShapeList<dim> all;
+  std::array<std::vector<std::int32_t>, stretches> numbers;  // in all of the shapes of each list
+  for (std::size_t i = 0; i < stretches; ++i) {
+    for (const auto* entry : lists[i].in_order()) numbers[i].push_back(all.number(entry->first, entry->second.cells));
+  }
+  std::vector<std::int32_t> kept;  // place in shapes_ of each of all
+  for (const auto* entry : all.in_order()) {
+    kept.push_back(entry->second.cells < 2 ? -1 : static_cast<std::int32_t>(shapes_.size()));
+    if (kept.back() >= 0) shapes_.push_back(corners_of<dim>(entry->first, order));
+  }
+  for_chunks(parts, [&](Chunk stretch) {
+    for (std::size_t cell = stretch.begin; cell < stretch.end; ++cell) {
+      std::int32_t& which = which_[CellId(cell)];
+      if (which >= 0) which = numbers[stretch.number][static_cast<std::size_t>(which)];
+      if (which >= 0) which = kept[static_cast<std::size_t>(which)];
     }
-  }
-  std::vector<std::int32_t> place(list.shapes().size(), -1);  // in shapes_, of those that repeat
-  for (const auto& [shape, entry] : list.shapes()) {
-    if (entry.cells < 2) continue;
-    place[static_cast<std::size_t>(entry.number)] = static_cast<std::int32_t>(shapes_.size());
-    shapes_.push_back(corners_of<dim>(shape, order));
-  }
-  for (std::int32_t& which : which_) which = which < 0 ? -1 : place[static_cast<std::size_t>(which)];
+  });
 }
 
 template class RepeatedCells<2>;

@@ -6,6 +6,12 @@
 
 namespace scree::thermal {
 
+void RowChunk::reserve(std::size_t rows, std::size_t entries) {
+  columns.reserve(entries);
+  values.reserve(entries);
+  ends.reserve(rows);
+}
+
 void RowSum::append_to(RowChunk& chunk, double factor) {
   std::sort(row_.begin(), row_.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
   for (const Entry& entry : row_) {
@@ -17,7 +23,7 @@ void RowSum::append_to(RowChunk& chunk, double factor) {
   row_.clear();
 }
 
-SparseMatrix joined(const std::vector<RowChunk>& chunks, int size, std::span<const int> order) {
+SparseMatrix joined(std::vector<RowChunk> chunks, int size, std::span<const int> order) {
   // Calls use(row, begin, end) with each row of a chunk and where its entries stand in that.
   const auto for_each_row = [&](std::size_t c, const auto& use) {
     for (int i = 0; i < std::ssize(chunks[c].ends); ++i) {
@@ -38,6 +44,7 @@ SparseMatrix joined(const std::vector<RowChunk>& chunks, int size, std::span<con
       std::copy(chunks[c].columns.begin() + begin, chunks[c].columns.begin() + end, matrix.innerIndexPtr() + offset[row]);
       std::copy(chunks[c].values.begin() + begin, chunks[c].values.begin() + end, matrix.valuePtr() + offset[row]);
     });
+    chunks[c] = {};
   }
   return matrix;
 }

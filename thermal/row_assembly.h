@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/threads.h"
@@ -16,6 +17,8 @@ struct RowChunk {
   std::vector<int> columns;
   std::vector<double> values;
   std::vector<int> ends;  // of each row, in this chunk
+
+  void reserve(std::size_t rows, std::size_t entries);
 };
 
 // The row that is being summed, and where each column of it stands; each thread has one.
@@ -46,8 +49,8 @@ class RowSum {
 
 inline constexpr int rows_in_chunk = 4096;
 
-// A square matrix of the rows in the chunks: as they come, or the k-th of them all is row order[k].
-SparseMatrix joined(const std::vector<RowChunk>& chunks, int size, std::span<const int> order);
+// A square matrix of the rows in the chunks, which it uses up: as they come, or the k-th of them all is row order[k].
+SparseMatrix joined(std::vector<RowChunk> chunks, int size, std::span<const int> order);
 
 // A square matrix. fill(row, sum) adds the entries of a row and returns what they are to be multiplied by; it is called for the
 // rows as they come, or in this order.
@@ -57,16 +60,19 @@ SparseMatrix assembled(int size, const Fill& fill, std::span<const int> order = 
 #pragma omp parallel if (size >= rows_worth_sharing)
   {
     RowSum sum(size);
+    std::size_t entries = 0;  // of the last chunk: the next will have about as many
 #pragma omp for schedule(dynamic)
     for (std::size_t c = 0; c < chunks.size(); ++c) {
+      chunks[c].reserve(rows_in_chunk, entries + entries / 16);
       const int first = static_cast<int>(c) * rows_in_chunk;
       for (int k = first; k < std::min(size, first + rows_in_chunk); ++k) {
         const int row = order.empty() ? k : order[k];
         sum.append_to(chunks[c], fill(row, sum));
       }
+      entries = chunks[c].columns.size();
     }
   }
-  return joined(chunks, size, order);
+  return joined(std::move(chunks), size, order);
 }
 
 }  // namespace scree::thermal

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include <boost/container/static_vector.hpp>
 
@@ -23,7 +22,10 @@ template <class Simplex>
 using SimplexList = boost::container::static_vector<Simplex, 10>;
 
 // How many corners a cell has: the entries of its nodes that count.
-std::size_t corner_count(CellKind kind);
+constexpr std::size_t corner_count(CellKind kind) {
+  if (kind == CellKind::hexahedron) return 8;
+  return kind == CellKind::wedge ? 6 : 4;
+}
 
 const char* kind_name(CellKind kind);
 

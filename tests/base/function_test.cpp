@@ -6,9 +6,8 @@
 #include <thread>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <fmt/format.h>
+#include "tests/temp_folder.h"
 
 namespace scree {
 
@@ -31,7 +30,7 @@ Function formula(const std::string& text, const char* unit = "", const Quantity&
 }
 
 Function table(const std::string& text, const Quantity& quantity, Range range = {}) {
-  const auto file = std::filesystem::temp_directory_path() / fmt::format("scree_function_test_{}.csv", getpid());
+  const auto file = test::temp_folder() / "table.csv";
   std::ofstream(file) << text;
   return Function::from_table(file, rule_of(quantity, range));
 }

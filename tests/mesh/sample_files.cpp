@@ -1,6 +1,5 @@
 #include "tests/mesh/sample_files.h"
 
-#include <cstdlib>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -83,15 +82,6 @@ void write_box_with_groups(const std::filesystem::path& file, int dimension) {
   gmsh::model::mesh::generate(dimension);
   gmsh::write(file.string());
   gmsh::finalize();
-}
-
-MeshFileTest::MeshFileTest() {
-  std::string name = (std::filesystem::temp_directory_path() / "scree-mesh-XXXXXX").string();
-  directory_ = ::mkdtemp(name.data());
-}
-
-MeshFileTest::~MeshFileTest() {
-  std::filesystem::remove_all(directory_);
 }
 
 BodySpec MeshFileTest::body_with(const std::string& name, const std::string& text, double mesh_size) {

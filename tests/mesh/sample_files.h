@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/mesh/body_spec.h"
+#include "tests/temp_folder.h"
 
 namespace scree::mesh {
 
@@ -39,16 +40,14 @@ void write_box_with_groups(const std::filesystem::path& file, int dimension);
 // A test with a directory of its own, gone afterwards.
 class MeshFileTest : public testing::Test {
  protected:
-  MeshFileTest();
-  ~MeshFileTest() override;
-
   // Writes `text` to a file and gives the body made of it.
   BodySpec body_with(const std::string& name, const std::string& text, double mesh_size = 1);
   // The text that refuses such a body, without the place, the key and the path it begins with.
   template <int dim = 3>
   std::string refusal(const std::string& name, const std::string& text, double mesh_size = 1);
 
-  std::filesystem::path directory_;
+  test::TempFolder folder_;
+  const std::filesystem::path& directory_ = folder_.path();
 };
 
 }  // namespace scree::mesh

@@ -1,11 +1,9 @@
 #include "engine/output/stored_field.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
-
-#include <fmt/format.h>
 
 #include "engine/output/series.h"
+#include "tests/temp_folder.h"
 
 namespace scree::output {
 
@@ -42,7 +40,7 @@ double exact(const mesh::BlockMesh<2>& mesh, NodeId node, double time) {
 }
 
 std::filesystem::path folder() {
-  return std::filesystem::temp_directory_path() / fmt::format("scree_stored_field_{}", getpid());
+  return test::temp_folder() / "stored";
 }
 
 // A series of two times, 0 and 60 s.

@@ -6,25 +6,19 @@
 
 #include "engine/base/check.h"
 #include "engine/packing/packing.h"
+#include "tests/temp_folder.h"
 
 namespace scree::packing {
 namespace {
 
 using testing::HasSubstr;
 
-// A directory of the test's own, gone afterwards.
 class PackingFile : public testing::Test {
  protected:
-  PackingFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "scree-packing-XXXXXX").string();
-    directory_ = ::mkdtemp(name.data());
-  }
-  ~PackingFile() override { std::filesystem::remove_all(directory_); }
-
-  [[nodiscard]] std::filesystem::path file() const { return directory_ / "packing.h5"; }
+  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "packing.h5"; }
 
  private:
-  std::filesystem::path directory_;
+  test::TempFolder folder_;
 };
 
 // Numbers that a detour over text or float would spoil.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "tests/temp_folder.h"
 #include "tools/report/chart.h"
 #include "tools/report/page.h"
 
@@ -27,7 +28,7 @@ TEST(Page, NamesFromASceneCannotBecomeMarkup) {
 
 // RFC 4648, section 10.
 TEST(Page, FilesAreEmbeddedInBase64) {
-  const auto file = std::filesystem::temp_directory_path() / "scree-data-url";
+  const auto file = test::temp_folder() / "data";
   for (const auto& [bytes, text] : {std::pair("", ""),
                                     {"f", "Zg=="},
                                     {"fo", "Zm8="},

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/scene/scene_text.h"
+#include "tests/temp_folder.h"
 #include "tools/scene/doctor.h"
 
 namespace scree {
@@ -75,7 +76,7 @@ TEST(SceneFunctions, MistakesAreNamedWithTheirPlace) {
 }
 
 TEST(SceneFunctions, TheEffectiveSceneHasEveryForm) {
-  const auto file = std::filesystem::temp_directory_path() / "scree_functions_test.csv";
+  const auto file = test::temp_folder() / "table.csv";
   std::ofstream(file) << "time [h],temperature [degC]\n0,20\n12,80\n";
   const Scene scene = scene_of(
       whole_scene,

@@ -1,24 +1,15 @@
 #include "tests/scene/scene_text.h"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
 
+#include "tests/temp_folder.h"
 #include "tools/scene/read_scene.h"
 
 namespace scree::test {
 
 namespace {
-
-// One folder per process: tests run side by side.
-std::filesystem::path scene_folder() {
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("scree_scene_test_{}", getpid());
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 std::string text_of(const Eigen::Vector3d& v) {
   return fmt::format("({} {} {})", v.x(), v.y(), v.z());
@@ -169,7 +160,7 @@ output:
 )";
 
 Scene scene_of(const std::string& yaml, const std::vector<std::string>& overrides) {
-  const auto file = scene_folder() / "s.yaml";
+  const auto file = temp_folder() / "s.yaml";
   std::ofstream(file) << yaml;
   return read_scene(file, overrides);
 }
@@ -179,7 +170,7 @@ std::string wrong_with(const std::string& yaml, const std::vector<std::string>& 
     scene_of(yaml, overrides);
   } catch (const InputError& error) {
     std::string text = error.what();
-    const std::string folder = scene_folder().string() + "/";
+    const std::string folder = temp_folder().string() + "/";
     for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder)) text.erase(at, folder.size());
     return text;
   }

@@ -6,13 +6,14 @@
 #include <sstream>
 
 #include "engine/base/progress.h"
+#include "tests/temp_folder.h"
 #include "tools/run/run_scene.h"
 #include "tools/scene/read_scene.h"
 
 namespace scree::test {
 
 std::filesystem::path fresh_directory(const std::string& name) {
-  const auto directory = std::filesystem::temp_directory_path() / "scree-tests" / name;
+  const auto directory = temp_folder() / name;
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   return directory;

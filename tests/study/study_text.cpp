@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/temp_folder.h"
 #include "tools/study/read_study.h"
 
 namespace scree::test {
@@ -24,9 +25,8 @@ output: {every: 1 h, probes: {top: {point: [0, 0, 0.15], reach: 2 cm}}}
 )";
 
 std::filesystem::path study_file(const std::string& scene, const std::string& study) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder =
-      std::filesystem::temp_directory_path() / "scree-tests" / "study" / (std::string(test->test_suite_name()) + test->name());
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder = temp_folder() / (std::string(info->test_suite_name()) + info->name());
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "scene.yaml") << scene;

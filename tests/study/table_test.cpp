@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/base/check.h"
+#include "tests/temp_folder.h"
 #include "tools/study/ensembles.h"
 #include "tools/study/first_time.h"
 #include "tools/study/forecast.h"
@@ -33,7 +34,7 @@ TEST(StudyTable, QuotesWhatCsvAsksFor) {
 }
 
 TEST(StudyTable, ComesBackFromHdf5ToTheBit) {
-  const auto file = std::filesystem::temp_directory_path() / "scree-tests-table.h5";
+  const auto file = test::temp_folder() / "table.h5";
   write_hdf5(sample(), file);
   const Table table = read_table(file);
   EXPECT_EQ(to_csv(table), to_csv(sample()));

@@ -60,12 +60,17 @@ TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitInAGrid) {
   expect_same_flows<2>(model.conductance);
 }
 
-TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitWhereNoRowRepeats) {
-  mesh::BlockMesh<3> mesh = grid(0.05);
-  for (const NodeId id : mesh.nodes.ids()) {
-    const double i = id.value();
+// No two of its cells are the same.
+void shake(mesh::BlockMesh<3>& mesh, IdRange<NodeId> nodes) {
+  for (const NodeId id : nodes) {
+    const auto i = static_cast<double>(id.index() - nodes.first());
     mesh.nodes[id] += 1e-3 * Point<3>(std::sin(i), std::sin(2 * i), std::sin(3 * i));
   }
+}
+
+TEST(RowRuns, FlowsAreThoseOfEachRowByItselfToTheBitWhereNoRowRepeats) {
+  mesh::BlockMesh<3> mesh = grid(0.05);
+  shake(mesh, mesh.blocks[BlockId{0}].nodes);
   const HeatModel model = model_of(mesh);
   EXPECT_EQ(RowRuns(model.conductance).count(), mesh.nodes.size());
   expect_same_flows<1>(model.conductance);
@@ -127,6 +132,23 @@ TEST(RepeatedCells, ACellLikeNoOtherIsLeftAsItIs) {
   const RepeatedCells<3> repeated(mesh, unit_conductivity(mesh));
   EXPECT_EQ(repeated.find(CellId{0}), nullptr);
   EXPECT_NE(repeated.find(CellId{1}), nullptr);
+}
+
+TEST(RepeatedCells, CellsOfTwoUnevenBlocksThatAreTheSameAreFoundHoweverFarApart) {
+  mesh::BodySpec body;
+  body.name = "boxes";
+  body.shape = mesh::Box{.size = Eigen::Vector3d(0.7, 0.3, 0.2)};
+  body.mesh_size = 0.05;
+  body.cells = mesh::CellKind::hexahedron;
+  mesh::BlockMesh<3> mesh = mesh::make_blocks<3>({body, body});
+  for (const mesh::Block& block : mesh.blocks) shake(mesh, block.nodes);
+  const RepeatedCells<3> repeated(mesh, unit_conductivity(mesh));
+  const std::size_t half = mesh.cells.size() / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    ASSERT_NE(repeated.find(CellId{i}), nullptr);
+    EXPECT_EQ(repeated.find(CellId{i}), repeated.find(CellId{half + i}));
+    EXPECT_NE(repeated.find(CellId{i}), repeated.find(CellId{(i + 1) % half}));
+  }
 }
 
 TEST(RepeatedCells, EqualCellsOfOtherConductivityDiffer) {
