@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "thermal/drive.h"
 
@@ -217,7 +218,7 @@ TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
 }
 
 TEST(HeatRun, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "scree_heat_run_resume.h5";
+  const auto file = scree::test::temp_folder() / "resume.h5";
   for (const Integrator integrator : {Integrator::implicit, Integrator::stabilised_explicit, Integrator::explicit_euler}) {
     const HeatModel model = rubble_model<3>(100, both);
     TimeOptions options = times(0.33, 0.1, 0.05);

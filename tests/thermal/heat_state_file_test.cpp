@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
+#include "tests/temp_folder.h"
 #include "thermal/heat_run.h"
 
 namespace scree::thermal {
@@ -28,12 +29,8 @@ HeatState some_state() {
   return state;
 }
 
-std::filesystem::path scratch(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
-}
-
 TEST(HeatStateFile, GivesBackEveryBit) {
-  const auto file = scratch("scree_heat_state.h5");
+  const auto file = scree::test::temp_folder() / "state.h5";
   const HeatState state = some_state();
   write(state, "this scene", file);
   const HeatState read = read_state(file, "this scene");
@@ -62,17 +59,17 @@ TEST(HeatStateFile, GivesBackEveryBit) {
 }
 
 TEST(HeatStateFile, AnotherKeyAMissingAndADamagedFileAreRefused) {
-  const auto file = scratch("scree_heat_state_damage.h5");
+  const auto file = scree::test::temp_folder() / "state_damage.h5";
   write(some_state(), "this scene", file);
   EXPECT_THROW(read_state(file, "another scene"), InputError);
-  EXPECT_THROW(read_state(scratch("scree_no_such_state.h5"), "this scene"), InputError);
+  EXPECT_THROW(read_state(scree::test::temp_folder() / "none.h5", "this scene"), InputError);
   const auto size = std::filesystem::file_size(file);
   std::string bytes(size, '\0');
   std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(size));
   const double first = some_state().temperature[0];
   const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&first), sizeof first));
   ASSERT_NE(at, std::string::npos);
-  const auto damaged = scratch("scree_heat_state_damaged.h5");
+  const auto damaged = scree::test::temp_folder() / "state_damaged.h5";
   const auto rewrite = [&](const std::string& content) {
     std::ofstream(damaged, std::ios::binary | std::ios::trunc)
         .write(content.data(), static_cast<std::streamsize>(content.size()));
