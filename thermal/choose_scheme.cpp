@@ -5,6 +5,7 @@
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
 #include "thermal/quick_ordering.h"
+#include "thermal/stable_step.h"
 #include "thermal/step_forecast.h"
 
 namespace scree::thermal {

@@ -56,17 +56,14 @@ class EnthalpyScheme : public TimeScheme {
     return result;
   }
 
-  // The local error of a short step is third_order h^3 T''', taken as if the equations were linear.
   double first_step(const Instant& from, double allowed) override {
     const Drive& drive = drives_.at(from.time);
     const Linearised at = balance_.linearised(from.temperature, drive);
-    const Eigen::VectorXd capacity = free_.gather(at.capacity);
-    Eigen::VectorXd derivative = free_.gather(balance_.heating(from.temperature, drive)).cwiseQuotient(capacity);
-    for (int order = 2; order <= 3; ++order) {
-      derivative = -free_.gather(balance_.lost(free_.scatter(derivative), at)).cwiseQuotient(capacity);
-    }
-    const double largest = derivative.lpNorm<Eigen::Infinity>();
-    return largest > 0 ? std::cbrt(allowed / (third_order * largest)) : std::numeric_limits<double>::infinity();
+    const auto lost = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
+      return free_.gather(balance_.lost(free_.scatter(change), at));
+    };
+    return sdirk2::first_step(free_.gather(balance_.heating(from.temperature, drive)), free_.gather(at.capacity), lost,
+                              allowed);
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
@@ -75,26 +74,6 @@ std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model) {
                              "Use the implicit integrator"));
   }
   return std::make_unique<ExplicitScheme>(model);
-}
-
-StableStep stable_step(const HeatModel& model) {
-  std::vector<char> fixed(static_cast<std::size_t>(model.capacity.size()), 0);
-  for (const NodeId node : model.fixed_nodes) fixed[node.index()] = 1;
-  Drives drives(model);
-  const Eigen::VectorXd loss = HeatBalance(model).linearised(model.initial, drives.at(0)).loss;
-  const double gain = largest_gain(model);
-  StableStep limit{std::numeric_limits<double>::infinity(), NodeId{}};
-  for (std::size_t node = 0; node < fixed.size(); ++node) {
-    if (fixed[node] != 0) continue;
-    const auto column = static_cast<Eigen::Index>(node);
-    double row = loss[column];  // the matrix is symmetric: its column will do
-    for (SparseMatrix::InnerIterator entry(model.conductance, column); entry; ++entry) {
-      if (fixed[entry.row()] == 0) row += std::abs(entry.value());
-    }
-    const double step = 2 * model.capacity[column] / (gain * row);
-    if (step < limit.step) limit = {step, NodeId{node}};
-  }
-  return limit;
 }
 
 }  // namespace scree::thermal

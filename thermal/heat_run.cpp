@@ -9,6 +9,7 @@
 #include "thermal/choose_scheme.h"
 #include "thermal/fourth_order.h"
 #include "thermal/problems.h"
+#include "thermal/stable_step.h"
 #include "thermal/step_grid.h"
 
 namespace scree::thermal {

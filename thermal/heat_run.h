@@ -88,15 +88,6 @@ class HeatRun {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// Largest stable step of eq. (8) [s], by Gershgorin's bound on C^-1 (K + convection) of the free nodes, and the node that
-// limits it.
-struct StableStep {
-  double step = 0;
-  NodeId node;
-};
-// Infinite, with no node, if every node is fixed.
-StableStep stable_step(const HeatModel& model);
-
 // Restart file (HDF5), whole or not there; doubles to the bit. `key` says what the state belongs to: read_state throws
 // InputError for another key and for a missing or damaged file.
 void write(const HeatState& state, const std::string& key, const std::filesystem::path& file);

@@ -13,16 +13,29 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 4";
+constexpr const char* format_name = "scree heat state 5";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
 
-// A state as plain lists, in the order in which they are written.
+// A state as plain lists.
 struct Lists {
   Doubles temperature, error, lumping, by_boundary, by_applied, by_surroundings, numbers;
   Counts counts;
 };
+
+// Calls use(name, list) for all of them, in the order in which they are written.
+template <class SomeLists, class Use>
+void for_each_list(SomeLists& lists, const Use& use) {
+  use("temperature", lists.temperature);
+  use("error", lists.error);
+  use("lumping", lists.lumping);
+  use("by_boundary", lists.by_boundary);
+  use("by_applied", lists.by_applied);
+  use("by_surroundings", lists.by_surroundings);
+  use("numbers", lists.numbers);
+  use("counts", lists.counts);
+}
 
 Doubles list_of(const Eigen::VectorXd& vector) {
   return {vector.begin(), vector.end()};
@@ -73,11 +86,9 @@ HeatState unpack(const Lists& lists) {
 std::string digest(const std::string& key, const Lists& lists) {
   Hasher hasher;
   hasher.add(key);
-  for (const Doubles* list : {&lists.temperature, &lists.error, &lists.lumping, &lists.by_boundary, &lists.by_applied,
-                              &lists.by_surroundings, &lists.numbers}) {
-    hasher.add(list->size()).add_bytes(list->data(), list->size() * sizeof(double));
-  }
-  hasher.add_bytes(lists.counts.data(), lists.counts.size() * sizeof(std::int64_t));
+  for_each_list(lists, [&](const char*, const auto& list) {
+    hasher.add(list.size()).add_bytes(list.data(), list.size() * sizeof list.front());
+  });
   return hasher.hex();
 }
 
@@ -137,14 +148,7 @@ void write(const HeatState& state, const std::string& key, const std::filesystem
       put_text(out, "format", format_name);
       put_text(out, "key", key);
       put_text(out, "digest", digest(key, lists));
-      put(out, "temperature", lists.temperature);
-      put(out, "error", lists.error);
-      put(out, "lumping", lists.lumping);
-      put(out, "by_boundary", lists.by_boundary);
-      put(out, "by_applied", lists.by_applied);
-      put(out, "by_surroundings", lists.by_surroundings);
-      put(out, "numbers", lists.numbers);
-      put(out, "counts", lists.counts);
+      for_each_list(lists, [&](const char* name, const auto& list) { put(out, name, list); });
     } catch (const H5::Exception& failure) {
       throw RunError(fmt::format("{} could not be written: {}", temporary.string(), failure.getDetailMsg()));
     }
@@ -160,14 +164,7 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     if (get_text(in, "format") != format_name) refuse(file, damaged, "Delete it and run the scene from its start");
     const std::string found = get_text(in, "key");
     Lists lists;
-    get(in, "temperature", lists.temperature);
-    get(in, "error", lists.error);
-    get(in, "lumping", lists.lumping);
-    get(in, "by_boundary", lists.by_boundary);
-    get(in, "by_applied", lists.by_applied);
-    get(in, "by_surroundings", lists.by_surroundings);
-    get(in, "numbers", lists.numbers);
-    get(in, "counts", lists.counts);
+    for_each_list(lists, [&](const char* name, auto& list) { get(in, name, list); });
     const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 13 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {

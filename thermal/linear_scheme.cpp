@@ -4,7 +4,6 @@
 // Written in increments, which keeps rounding small near a steady state: with P1 the temperatures at the step's start but the
 // fixed nodes where stage 1 has them, P2 alike, and F at the times of the stages,
 //   M d1 = gamma h F(P1),    M d2 = C d1 + gamma h (F(P2) - F(P1))/from_first,    T1 = P1 + d1,  T2 = P2 + d1 + from_first d2.
-#include <limits>
 
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
@@ -74,15 +73,12 @@ class LinearScheme : public TimeScheme {
     return result;
   }
 
-  // The local error of a short step is third_order h^3 T'''.
   double first_step(const Instant& from, double allowed) override {
-    Eigen::VectorXd derivative =
-        free_.gather(balance_.heating(from.temperature, drives_.at(from.time))).cwiseQuotient(capacity_);
-    for (int order = 2; order <= 3; ++order) {
-      derivative = -free_.gather(balance_.lost(free_.scatter(derivative), linear_)).cwiseQuotient(capacity_);
-    }
-    const double largest = derivative.lpNorm<Eigen::Infinity>();
-    return largest > 0 ? std::cbrt(allowed / (third_order * largest)) : std::numeric_limits<double>::infinity();
+    const auto lost = [this](const Eigen::VectorXd& change) -> Eigen::VectorXd {
+      return free_.gather(balance_.lost(free_.scatter(change), linear_));
+    };
+    const Eigen::VectorXd heating = free_.gather(balance_.heating(from.temperature, drives_.at(from.time)));
+    return sdirk2::first_step(heating, capacity_, lost, allowed);
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }

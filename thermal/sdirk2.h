@@ -19,6 +19,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -56,6 +57,16 @@ Eigen::VectorXd local_error(const StageHeats& heats, const Eigen::VectorXd& capa
   const Eigen::VectorXd y = (heats.last - heats.first) * (mu / gamma);
   const Eigen::VectorXd damped = solve(x + y);
   return solve(capacity.cwiseProduct(damped) - y);
+}
+
+// The length of a step whose local error, third_order h^3 T''', is `allowed` [K]; infinite if nothing changes [s]. Linearised:
+// `heating` flows into the free nodes [W], lost(change) is how much less does when their temperatures have changed [W].
+template <class Lost>
+double first_step(const Eigen::VectorXd& heating, const Eigen::VectorXd& capacity, const Lost& lost, double allowed) {
+  Eigen::VectorXd derivative = heating.cwiseQuotient(capacity);
+  for (int order = 2; order <= 3; ++order) derivative = -lost(derivative).cwiseQuotient(capacity);
+  const double largest = derivative.lpNorm<Eigen::Infinity>();
+  return largest > 0 ? std::cbrt(allowed / (third_order * largest)) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace scree::thermal::sdirk2

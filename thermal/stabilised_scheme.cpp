@@ -25,6 +25,7 @@
 #include "thermal/heat_balance.h"
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
+#include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"
 
 namespace scree::thermal {

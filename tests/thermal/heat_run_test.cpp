@@ -7,6 +7,7 @@
 #include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "thermal/drive.h"
+#include "thermal/stable_step.h"
 
 namespace scree::thermal {
 namespace {
@@ -286,8 +287,8 @@ TEST(ExplicitStep, TheStableStepIsRefusedAboveAndNamesTheBlock) {
   }
 }
 
-// Gershgorin's bound on the largest eigenvalue is at most twice the largest diagonal entry, and no diagonal entry of a
-// symmetric matrix exceeds its largest eigenvalue: so twice the bound is beyond any stable step.
+// No bound is above Gershgorin's, which is at most twice the largest diagonal entry, and no diagonal entry of a symmetric
+// matrix exceeds its largest eigenvalue: so twice the bound is beyond any stable step.
 TEST(ExplicitStep, TheBoundIsStableAndTwiceTheBoundIsNot) {
   const HeatModel model = rubble_model<2>(10, hot_left);
   const double bound = stable_step(model).step;

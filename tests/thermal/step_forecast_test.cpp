@@ -7,6 +7,7 @@
 
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
+#include "thermal/stable_step.h"
 
 namespace scree::thermal {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
+#include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"
 
 namespace scree::thermal {
