@@ -14,9 +14,9 @@ std::size_t steps(double length, double mesh_size) {
   return static_cast<std::size_t>(std::max(1.0, std::round(length / mesh_size)));
 }
 
-// Evenly from -length/2 to length/2, both to the bit.
+// Evenly from -length/2 to length/2, both to the bit: what follows the half length is -1 and 1 there.
 double coordinate(double length, std::size_t step, std::size_t count) {
-  return length * (2 * static_cast<double>(step) - static_cast<double>(count)) / (2 * static_cast<double>(count));
+  return length / 2 * ((2 * static_cast<double>(step) - static_cast<double>(count)) / static_cast<double>(count));
 }
 
 // The base's cells as lists of corners, counter-clockwise: its quadrilaterals or, without any, its triangles.
