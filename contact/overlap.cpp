@@ -148,18 +148,16 @@ double share(const std::array<Place<dim>, dim>& places) {
   }
 }
 
-// The segment, or the triangles of a fan.
-template <int dim>
-std::vector<std::array<Place<dim>, dim>> simplices(const Polygon<dim>& polygon) {
-  std::vector<std::array<Place<dim>, dim>> parts;
+// Calls use(part) with the segment, or with the triangles of a fan.
+template <int dim, class Use>
+void for_each_simplex(const Polygon<dim>& polygon, const Use& use) {
   for (std::size_t i = dim - 1; i < polygon.size(); ++i) {
     if constexpr (dim == 2) {
-      parts.push_back({polygon[i - 1], polygon[i]});
+      use(std::array<Place<2>, 2>{polygon[i - 1], polygon[i]});
     } else {
-      parts.push_back({polygon[0], polygon[i - 1], polygon[i]});
+      use(std::array<Place<3>, 3>{polygon[0], polygon[i - 1], polygon[i]});
     }
   }
-  return parts;
 }
 
 template <int dim>
@@ -182,25 +180,25 @@ void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<Ove
   if (lies_beyond_a_side<dim>(pair.first, pair.second, pair.normal)) return;
   if (lies_beyond_a_side<dim>(pair.second, pair.first, pair.normal)) return;
   const Place<dim> gap = gap_function(pair);
-  const auto parts = simplices<dim>(overlap(pair, gap, tolerance));
+  const Polygon<dim> polygon = overlap(pair, gap, tolerance);
   const double first_area = std::abs(seen_area<dim>(pair.first, pair.normal));
   const double second_area = std::abs(seen_area<dim>(pair.second, pair.normal));
   double area = 0;
-  for (const auto& part : parts) area += share<dim>(part) * first_area;
+  for_each_simplex<dim>(polygon, [&](const auto& part) { area += share<dim>(part) * first_area; });
   if (area <= least_share * std::min(first_area, second_area)) return;
 
   // Exact for quadratic functions: Gauss's rule on a segment, the points (2/3, 1/6, 1/6) of a triangle.
   const double near = dim == 2 ? 0.5 + 0.5 / std::sqrt(3.0) : 2.0 / 3;
   const double far = (1 - near) / (dim - 1);
-  for (const auto& part : parts) {
+  for_each_simplex<dim>(polygon, [&](const auto& part) {
     const double piece = share<dim>(part) * first_area / dim;
-    if (piece == 0) continue;
+    if (piece == 0) return;
     for (int i = 0; i < dim; ++i) {
       Place<dim> place = Place<dim>::Zero();
       for (int j = 0; j < dim; ++j) place += (i == j ? near : far) * part[j];
       points.push_back(as_point<dim>(place, piece, gap.dot(place)));
     }
-  }
+  });
 }
 
 template void overlap_points<2>(const FacePair<2>&, double, std::vector<OverlapPoint<2>>&);
