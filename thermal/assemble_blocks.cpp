@@ -5,6 +5,7 @@
 #include "engine/base/chunks.h"
 #include "engine/base/threads.h"
 #include "engine/mesh/cells.h"
+#include "thermal/fastest_cell.h"
 #include "thermal/incidence.h"
 #include "thermal/repeated_cells.h"
 #include "thermal/row_assembly.h"
@@ -201,6 +202,7 @@ SparseMatrix assemble_blocks(const mesh::BlockMesh<dim>& mesh, const Table<Mater
   const Incidence incidence = pieces_at_nodes(mesh, model.lumped);
   const Pieces<dim> pieces(mesh, materials, order);
   set_capacities(pieces, materials, incidence, model);
+  model.fastest_cell = fastest_cell(mesh, materials, pieces.repeated, model);
   const bool any_varies = std::any_of(mesh.bodies.begin(), mesh.bodies.end(),
                                       [&](const mesh::Body& body) { return materials[body.material].conductivity->varies(); });
   const Rows<dim> rows(pieces, materials, model, incidence, numbering);

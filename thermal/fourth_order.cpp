@@ -178,6 +178,7 @@ void check_fourth_order(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId
 
 double largest_gain(const HeatModel& model) {
   if (!model.shared_capacity) return 1;
+  if (model.fastest_cell) return model.fastest_cell->gain;
   return 1 + (2 * model.shared_capacity->diagonal().cwiseQuotient(model.capacity)).maxCoeff();
 }
 

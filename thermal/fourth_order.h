@@ -45,7 +45,8 @@ template <int dim>
 void check_fourth_order(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                         const HeatOptions& options);
 
-// The largest eigenvalue of I + C^-1 B by Gershgorin's circles; 1 without B [-].
+// A bound of the largest eigenvalue of I + C^-1 B: by its cells where they are equal, else by Gershgorin's circles; 1 without
+// B [-].
 double largest_gain(const HeatModel& model);
 
 // T at t = 0+, the fixed nodes at `held` [K].

@@ -200,6 +200,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   const auto numbering = number_rows(mesh, model, tied);
   assemble_blocks(mesh, materials, options.space_order, numbering, model).swap(model.conductance);
   if (numbering) share_rows(mesh, materials, *numbering, model);
+  if (!contacts.contacts.empty()) model.fastest_cell.reset();  // joints conduct, too
   add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
   return model;
 }

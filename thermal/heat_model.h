@@ -58,6 +58,12 @@ struct VaryingProperties {
   SparseMatrix unit_conductance;
 };
 
+// Of the cells of a grid, each by itself (fastest_cell.h).
+struct FastestCell {
+  double rate = 0;  // largest eigenvalue of C_e^-1 K_e [1/s]
+  double gain = 1;  // largest eigenvalue of I + C_e^-1 B_e [-]
+};
+
 // One row per node of the mesh, in its order, but one for all nodes of a lumped block and one for nodes that are tied; NodeId
 // counts rows here. K is symmetric with zero row sums.
 struct HeatModel {
@@ -76,8 +82,9 @@ struct HeatModel {
   std::vector<Exchange> exchanges;
   // Nothing if no property depends on temperature; `capacity` is that of the initial temperatures otherwise.
   std::optional<VaryingProperties> varying;
-  std::optional<LumpedBlocks> lumped;  // nothing if every block is meshed
-  std::size_t tied_nodes = 0;          // those that are one with an earlier node (tied_nodes.h)
+  std::optional<LumpedBlocks> lumped;       // nothing if every block is meshed
+  std::optional<FastestCell> fastest_cell;  // of equal cells without joints
+  std::size_t tied_nodes = 0;               // those that are one with an earlier node (tied_nodes.h)
   // For messages.
   Table<BlockId, BodyId> bodies;
   Table<BodyId, std::string> body_names;

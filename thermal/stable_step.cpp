@@ -27,6 +27,9 @@ class Magnitudes {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;
   }
 
+  // The largest rate at which a node loses heat to surroundings [1/s].
+  [[nodiscard]] double largest_loss() const { return inverse_.size() > 0 ? inverse_.cwiseProduct(loss_).maxCoeff() : 0; }
+
   [[nodiscard]] Eigen::VectorXd equal_weights() const { return (inverse_.array() > 0).cast<double>(); }
 
   // Fixed nodes have no weight. Returns the largest quotient.
@@ -67,6 +70,7 @@ StableStep stable_step(const HeatModel& model) {
     if (bound > (1 - worth_a_round) * before) break;
     weights = (weights.array() > 0).select((product / most).cwiseMax(least_weight), 0.0);
   }
+  if (model.fastest_cell) bound = std::min(bound, model.fastest_cell->rate + magnitudes.largest_loss());
   return {2 / (largest_gain(model) * bound), NodeId{static_cast<std::size_t>(fastest)}};
 }
 

@@ -15,7 +15,8 @@ struct StableStep {
 // Wielandt (R. S. Varga, Matrix Iterative Analysis, 1962, section 2.1) no eigenvalue of A is larger than
 //   max_i (|A| w)_i / w_i
 // for whatever positive weights w. Equal ones give Gershgorin's bound; |A| w, |A|^2 w and so on bring it down to the largest
-// eigenvalue of |A|, and are taken as long as that is worth their cost. Infinite, with no node, if nothing conducts.
+// eigenvalue of |A|, and are taken as long as that is worth their cost. Grids have a bound of their own (fastest_cell.h).
+// Infinite, with no node, if nothing conducts.
 StableStep stable_step(const HeatModel& model);
 
 }  // namespace scree::thermal

@@ -63,6 +63,48 @@ TEST(StableStep, IsThatOfTheLargestEigenvalueOfTheMagnitudesHoweverStiffTheJoint
   }
 }
 
+mesh::BlockMesh<3> grid(const Eigen::Vector3d& size, double mesh_size) {
+  mesh::BodySpec body;
+  body.name = "box";
+  body.shape = mesh::Box{.size = size};
+  body.mesh_size = mesh_size;
+  body.cells = mesh::CellKind::hexahedron;
+  body.material = MaterialId{0};
+  return mesh::make_blocks<3>({body});
+}
+
+// Of a grid the bound by its cells is the largest eigenvalue itself: all corners of all cells move against each other. In
+// fourth order the operator is C^-1 (I + B C^-1) K, the eigenvalues of which are those of a symmetric matrix, too.
+TEST(StableStep, OfAGridOfEqualBoxesIsThatOfTheFastestModeItself) {
+  for (const Eigen::Vector3d& size : {Eigen::Vector3d(0.4, 0.4, 0.4), Eigen::Vector3d(0.31, 0.4, 0.47)}) {
+    for (const SpaceOrder order : {SpaceOrder::second, SpaceOrder::fourth}) {
+      const auto mesh = grid(size, 0.1);
+      HeatOptions options = test::options_for(mesh, 300);
+      options.space_order = order;
+      const HeatModel model = make_heat_model<3>(mesh, test::rock_only(), {}, options);
+      Eigen::MatrixXd matrix(model.conductance);
+      if (order == SpaceOrder::fourth) {
+        const Eigen::MatrixXd sharing = Eigen::MatrixXd(*model.shared_capacity) * model.capacity.cwiseInverse().asDiagonal();
+        matrix += sharing * matrix;
+        EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-9 * matrix.norm());  // the two commute in a grid
+      }
+      EXPECT_NEAR(2 / stable_step(model).step / largest_eigenvalue(model, matrix), 1, 1e-9);
+    }
+  }
+}
+
+TEST(StableStep, OfAGridWithJointsOrUnevenCellsOwesNothingToItsCells) {
+  auto mesh = grid({0.4, 0.4, 0.4}, 0.1);
+  mesh.nodes[NodeId{0}].x() -= 1e-3;
+  EXPECT_FALSE(make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300)).fastest_cell);
+  test::Slab<2> loose;
+  loose.cells = {2, 2};
+  loose.block_per_element = true;
+  const auto joined = test::slab_mesh<2>({loose});
+  EXPECT_FALSE(make_heat_model<2>(joined, test::rock_only(), test::matching_contacts(joined), test::options_for(joined, 300))
+                   .fastest_cell);
+}
+
 // Right triangles conduct along their legs only: the five-point stencil, whose explicit steps are stable up to h^2/4a.
 TEST(StableStep, OfASquareGridIsTheTextbooks) {
   mesh::BodySpec body;
