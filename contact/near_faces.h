@@ -6,9 +6,10 @@
 namespace scree::contact {
 
 // Leaves out faces of blocks of many elements: those whose element comes near no other block's box. Kept are, in their order,
-// the others, and those around them that share a node with one of them, so that normals at nodes and edges stay what they are.
+// the others, and those around them that share a node with one of them, so that normals at nodes and edges stay what they are;
+// but none of blocks in `without` (ascending).
 template <int dim>
 Table<FaceId, mesh::Face<dim>> near_faces(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces,
-                                          const ShellOptions& options);
+                                          const ShellOptions& options, const std::vector<BlockId>& without = {});
 
 }  // namespace scree::contact

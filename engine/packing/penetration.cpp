@@ -7,10 +7,12 @@
 
 namespace scree::packing {
 
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range) {
+Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost) {
+  const auto is_lost = [&](const Part* part) { return std::binary_search(lost.begin(), lost.end(), part->block); };
   const PieceSet pieces(placed_mesh);
   std::map<std::pair<BlockId, BlockId>, double> depth;
   for (const auto& [a, b] : near_pairs(pieces.parts, contact_range)) {
+    if (is_lost(a) || is_lost(b)) continue;
     const double distance = separation(a->placed, b->placed, contact_range).distance;
     if (distance > contact_range) continue;
     double& deepest = depth[std::minmax(a->block, b->block)];

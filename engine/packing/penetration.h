@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "engine/mesh/block_mesh.h"
 
@@ -16,7 +17,9 @@ struct Penetration {
 
 // Over all pairs of blocks of which one at least is free. The depth of a pair is the least translation that would part it, by
 // separating axes (separation.h); of blocks in several convex pieces, the deepest of their pairs of pieces. A pair touches if
-// it is nearer than `contact_range` [m].
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range);
+// it is nearer than `contact_range` [m]. Blocks that are lost (ascending) count for nothing: they stay where they left the
+// scene, whatever else was lost there.
+Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range,
+                                std::span<const BlockId> lost = {});
 
 }  // namespace scree::packing

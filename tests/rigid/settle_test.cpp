@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/base/check.h"
+#include "engine/packing/penetration.h"
 #include "tests/rigid/blocks.h"
 
 namespace scree::rigid {
@@ -317,6 +318,17 @@ TEST(Settle, ABlockThatMissesThePlateIsLostAndNamed) {
   EXPECT_EQ(packing.settled->lost_blocks, std::vector<BlockId>{BlockId{2}});
   EXPECT_NEAR(packing.settled->top, 0.1, 1e-5);
   EXPECT_LT(packing.poses[BlockId{2}].translation.z(), -0.2);
+}
+
+TEST(Settle, BlocksThatAreLostInOnePlaceAreNotInEachOther) {
+  mesh::BlockMesh<3> mesh = plate();
+  add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.06}, false);
+  for (int i = 0; i < 4; ++i) add_box(mesh, {0.1, 0.1, 0.1}, {1.5, 0, 0.1 + 0.2 * i}, false);
+  const auto packing = settle(mesh, material(0.6), {});
+  EXPECT_EQ(packing.settled->lost_blocks.size(), 4U);
+  const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
+  EXPECT_GT(packing::measure_penetration(placed, 1e-4).max, 0.01);  // that is what this is about
+  EXPECT_LT(packing.settled->max_penetration, 1e-5);
 }
 
 TEST(Settle, ABlockOfManyElementsThatIsNotConvexRestsOnItsFeet) {

@@ -107,6 +107,29 @@ TEST(SceneErrors, KeysWithoutUseAreRefused) {
             "s.yaml:4:1: packing is given beside settle (must have at most one of packing, settle). Keep one of them");
 }
 
+TEST(SceneErrors, ExplicitStepsAreRefusedForWhatChangesAndSayWhat) {
+  const std::string curve = "materials.ore.conductivity={table: [[0 degC, 2], [100 degC, 3]]}";
+  const std::string radiates = "heat.boundaries[1]={body: block, radiation: {emissivity: 0.5, surroundings: 280}}";
+  const std::string warms = "heat.boundaries[0].temperature={expression: 300 + t}";
+  const std::string cools =
+      "heat.boundaries[1]={body: block, convection: {coefficient: {expression: 1 + t}, surroundings: 280}}";
+  const auto refusal = [](const std::string& steps, const std::string& change) {
+    return wrong_with(whole_scene, {change, "heat.integrator=" + steps});
+  };
+  using testing::HasSubstr;
+  for (const char* steps : {"explicit_euler", "stabilised_explicit"}) {
+    const std::string begin = std::string("heat.integrator is ") + steps + " (does only what does not change: ";
+    EXPECT_THAT(refusal(steps, curve), HasSubstr(begin + "properties of ore depend on temperature). Use the implicit"));
+    EXPECT_THAT(refusal(steps, radiates), HasSubstr(" is not linear in temperature). Use the implicit"));
+    EXPECT_THAT(refusal(steps, cools), HasSubstr(begin + "the coefficient of "));
+  }
+  EXPECT_THAT(refusal("stabilised_explicit", warms), HasSubstr(" changes in time)"));
+  EXPECT_EQ(refusal("explicit_euler", warms), "accepted");
+  EXPECT_EQ(refusal("automatic", radiates), "accepted");
+  EXPECT_EQ(wrong_with(whole_scene, {radiates, "heat.steady=true", "heat.until=null"}).find("heat.integrator"),
+            std::string::npos);
+}
+
 TEST(SceneErrors, MaterialsNeedWhatIsModelled) {
   const std::string bare = "materials: {ore: {}}\nbodies: {b: {" + good_body + "}}\n";
   EXPECT_EQ(wrong_with(bare), "accepted");

@@ -38,6 +38,7 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
                             const std::function<void(const std::string&)>& note) {
   HeatedPile<dim> pile;
   pile.mesh = packing::placed_mesh(packing);
+  if (packing.settled) pile.lost = packing.settled->lost_blocks;
   pile.probes = output::locate_probes(pile.mesh, scene.probes, probe_reading(scene));
   pile.start = earlier_temperatures(scene, pile.mesh, note);
   pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
@@ -46,7 +47,9 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
 
 template <int dim>
 contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile) {
-  return thermal::contact_search(scene.heat->joint, pile.mesh.bodies, *scene.contact);
+  contact::ContactOptions search = thermal::contact_search(scene.heat->joint, pile.mesh.bodies, *scene.contact);
+  search.left_out = pile.lost;
+  return search;
 }
 
 template <int dim>

@@ -19,6 +19,7 @@ namespace scree::run {
 template <int dim>
 struct HeatedPile {
   mesh::BlockMesh<dim> mesh;  // as placed
+  std::vector<BlockId> lost;  // left the scene as it settled, ascending: they touch nothing
   contact::ContactSet<dim> contacts;
   thermal::JointConduction<dim> joints;
   std::vector<output::Probe<dim>> probes;

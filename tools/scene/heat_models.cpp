@@ -79,11 +79,6 @@ std::vector<std::string> materials_with(const Scene& scene, const Has& has) {
   return names;
 }
 
-bool varies(const Material& material) {
-  const bool conductivity = material.conductivity && material.conductivity->varies();
-  return conductivity || (material.specific_heat && !material.specific_heat->constant());
-}
-
 bool has_axes(const Material& material) {
   return material.conductivity && !material.conductivity->isotropic();
 }
@@ -112,6 +107,11 @@ Model start(const Scene& scene) {
 }
 
 }  // namespace
+
+bool varies(const Material& material) {
+  const bool conductivity = material.conductivity && material.conductivity->varies();
+  return conductivity || (material.specific_heat && !material.specific_heat->constant());
+}
 
 std::vector<Model> heat_models(const Scene& scene) {
   const std::string absent = "the scene has no heat section";

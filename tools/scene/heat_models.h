@@ -9,4 +9,7 @@ namespace scree {
 
 std::vector<Model> heat_models(const Scene& scene);
 
+// Whether what it conducts or stores depends on temperature.
+bool varies(const Material& material);
+
 }  // namespace scree

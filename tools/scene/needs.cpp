@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "tools/scene/heat_models.h"
 #include "tools/scene/sections.h"
 
 namespace scree {
@@ -15,6 +16,63 @@ void need(const Checked& material, const std::string& property, const std::strin
   problems.push_back({material.where, material.path + "." + property, "missing", reason, ""});
 }
 
+// What makes the equations of heat other than linear with constant coefficients; empty: nothing.
+std::string changing_equations(const Scene& scene) {
+  for (const mesh::BodySpec& body : scene.bodies) {
+    if (!body.material.valid() || !varies(scene.materials[body.material])) continue;
+    return fmt::format("properties of {} depend on temperature", scene.materials[body.material].name);
+  }
+  for (const thermal::Boundary& boundary : scene.heat->boundaries) {
+    if (std::holds_alternative<thermal::Radiation>(boundary.condition))
+      return fmt::format("{} is not linear in temperature", boundary.name);
+    const auto* convection = std::get_if<thermal::Convection>(&boundary.condition);
+    if (convection == nullptr || !convection->coefficient.varies_in_time()) continue;
+    return fmt::format("the coefficient of {} changes in time", boundary.name);
+  }
+  return {};
+}
+
+bool varies_in_time(const thermal::FixedTemperature& held) {
+  return held.temperature.varies_in_time();
+}
+bool varies_in_time(const thermal::HeatFlux& flux) {
+  return flux.flux.varies_in_time();
+}
+bool varies_in_time(const thermal::HeatFlow& flow) {
+  return flow.flow.varies_in_time();
+}
+template <class Exchange>
+bool varies_in_time(const Exchange& exchange) {
+  return exchange.surroundings.varies_in_time();
+}
+
+// Which condition changes in time; empty: none.
+std::string changing_condition(const thermal::HeatOptions& heat) {
+  for (const thermal::Boundary& boundary : heat.boundaries) {
+    const bool changes = std::visit([](const auto& condition) { return varies_in_time(condition); }, boundary.condition);
+    if (changes) return fmt::format("{} changes in time", boundary.name);
+  }
+  for (const thermal::Source& source : heat.sources) {
+    if (source.power.varies_in_time()) return fmt::format("{} changes in time", source.name);
+  }
+  return {};
+}
+
+// Explicit steps are for linear equations, stabilised ones for conditions that stay as well.
+void check_integrator(const Scene& scene, const Checked& heat, Problems& problems) {
+  using enum thermal::Integrator;
+  const thermal::TimeOptions& time = scene.heat->time;
+  const bool fourth = scene.heat->space_order == thermal::SpaceOrder::fourth;
+  const bool stabilised = fourth || time.integrator == stabilised_explicit;
+  if (time.steady || (!stabilised && time.integrator != explicit_euler)) return;
+  std::string reason = changing_equations(scene);
+  if (reason.empty() && stabilised) reason = changing_condition(*scene.heat);
+  if (reason.empty()) return;
+  const Checked& asked = heat.at(fourth ? "space_order" : "integrator");
+  problems.push_back(asked.problem(asked.text, "does only what does not change: " + reason,
+                                   fourth ? "Set space_order: 2" : "Use the implicit integrator"));
+}
+
 }  // namespace
 
 void check_needs(const Scene& scene, const Checked& checked, Problems& problems) {
@@ -27,6 +85,7 @@ void check_needs(const Scene& scene, const Checked& checked, Problems& problems)
     const std::string reason = fmt::format("heat is modelled in body {}", body.name);
     for (const char* property : {"density", "conductivity", "specific_heat"}) need(material, property, reason, problems);
   }
+  if (scene.heat) check_integrator(scene, checked.at("heat"), problems);
 }
 
 }  // namespace scree
