@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "thermal/heat_run.h"
 #include "thermal/problems.h"
 #include "thermal/quick_ordering.h"
 #include "thermal/stable_step.h"

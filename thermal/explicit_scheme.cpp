@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "thermal/heat_balance.h"
-#include "thermal/heat_run.h"
 #include "thermal/problems.h"
 #include "thermal/time_scheme.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -10,11 +11,12 @@ namespace scree::thermal {
 
 namespace {
 
-using CellCorners = std::array<CornerOfCell, 8>;
+template <int dim>
+using CellCorners = typename RepeatedCells<dim>::Corners;
 
 // Of C_e^-1 M_e, `entries` being M_e and the capacity that of unit density and specific heat.
 template <int dim>
-double largest_eigenvalue(const CellCorners& corners, std::array<double, 8> CornerOfCell::*entries) {
+double largest_eigenvalue(const CellCorners<dim>& corners, std::array<double, 8> CornerOfCell::*entries) {
   const auto count = std::count_if(corners.begin(), corners.end(), [](const CornerOfCell& c) { return c.volume > 0; });
   Eigen::MatrixXd scaled(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -33,14 +35,16 @@ std::optional<FastestCell> fastest_cell(const mesh::BlockMesh<dim>& mesh, const 
                                         const RepeatedCells<dim>& repeated, const HeatModel& model) {
   if (model.varying || model.lumped) return std::nullopt;
   FastestCell fastest;
-  std::unordered_map<const CellCorners*, FastestCell> known;  // of unit density and specific heat
+  std::unordered_map<const CellCorners<dim>*, FastestCell> known;  // of unit density and specific heat
   for (const mesh::Block& block : mesh.blocks) {
     const Material& material = materials[mesh.bodies[block.body].material];
     const double heat_per_volume = *material.density * *material.specific_heat->constant();
     if (block.cells.size() == 0) return std::nullopt;
+    const CellCorners<dim>* last = nullptr;
     for (const CellId cell : block.cells) {
-      const CellCorners* shape = repeated.find(cell);
+      const CellCorners<dim>* shape = repeated.find(cell);
       if (shape == nullptr) return std::nullopt;
+      if (std::exchange(last, shape) == shape) continue;
       const auto [entry, is_new] = known.try_emplace(shape);
       if (is_new) {
         entry->second = {largest_eigenvalue<dim>(*shape, &CornerOfCell::conductance),

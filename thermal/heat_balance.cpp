@@ -98,6 +98,18 @@ double HeatBalance::stored_in_all(const Eigen::VectorXd& from, const Eigen::Vect
   return model_.varying ? stored(from, to).sum() : model_.capacity.cwiseProduct(to - from).sum();
 }
 
+Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive) {
+  Eigen::VectorXd loss = Eigen::VectorXd::Zero(temperature.size());
+  for (std::size_t e = 0; e < model.exchanges.size(); ++e) {
+    const Exchange& exchange = model.exchanges[e];
+    Eigen::Index row = 0;
+    for (const NodeId node : exchange.on.nodes) {
+      loss[node.value()] += exchange_slope(exchange.law, drive.exchanges[e], row++, temperature[node.value()]);
+    }
+  }
+  return loss;
+}
+
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {
   Linearised result;
   result.capacity = model_.capacity;
@@ -108,14 +120,7 @@ Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Dri
       result.conductivity = at_nodes(properties, &VaryingProperties::conductivity, temperature, value);
     }
   }
-  result.loss = Eigen::VectorXd::Zero(temperature.size());
-  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
-    const Exchange& exchange = model_.exchanges[e];
-    Eigen::Index row = 0;
-    for (const NodeId node : exchange.on.nodes) {
-      result.loss[node.value()] += exchange_slope(exchange.law, drive.exchanges[e], row++, temperature[node.value()]);
-    }
-  }
+  result.loss = loss_to_surroundings(model_, temperature, drive);
   return result;
 }
 

@@ -20,6 +20,9 @@ struct Linearised {
   Eigen::VectorXd conductivity;  // [W/m/K]; empty without U
 };
 
+// How much more heat each node loses to surroundings as it gets warmer [W/K].
+Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive);
+
 class HeatBalance {
  public:
   explicit HeatBalance(const HeatModel& model, Sums sums = Sums::extended);  // refers to it

@@ -23,7 +23,6 @@
 #include "engine/base/huge_pages.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
-#include "thermal/heat_run.h"
 #include "thermal/problems.h"
 #include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"

@@ -22,7 +22,7 @@ class Magnitudes {
  public:
   explicit Magnitudes(const HeatModel& model)
       : conductance_(model.conductance),
-        loss_(HeatBalance(model).linearised(model.initial, Drives(model).at(0)).loss),
+        loss_(loss_to_surroundings(model, model.initial, Drives(model).at(0))),
         inverse_(model.capacity.cwiseInverse()) {
     for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;
   }

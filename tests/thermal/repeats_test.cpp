@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/threads.h"
-#include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
+#include "tests/thermal/grids.h"
 #include "thermal/flow_network.h"
 #include "thermal/repeated_cells.h"
 #include "thermal/row_runs.h"
@@ -13,14 +13,8 @@
 namespace scree::thermal {
 namespace {
 
-mesh::BlockMesh<3> grid(double mesh_size) {
-  mesh::BodySpec body;
-  body.name = "box";
-  body.shape = mesh::Box{.size = Eigen::Vector3d(0.7, 0.3, 0.2)};
-  body.mesh_size = mesh_size;
-  body.cells = mesh::CellKind::hexahedron;
-  body.material = MaterialId{0};
-  return mesh::make_blocks<3>({body});
+mesh::BlockMesh<3> grid(double mesh_size, std::size_t count = 1) {
+  return test::boxes_of_hexahedra({0.7, 0.3, 0.2}, mesh_size, count);
 }
 
 HeatModel model_of(const mesh::BlockMesh<3>& mesh) {
@@ -135,12 +129,7 @@ TEST(RepeatedCells, ACellLikeNoOtherIsLeftAsItIs) {
 }
 
 TEST(RepeatedCells, CellsOfTwoUnevenBlocksThatAreTheSameAreFoundHoweverFarApart) {
-  mesh::BodySpec body;
-  body.name = "boxes";
-  body.shape = mesh::Box{.size = Eigen::Vector3d(0.7, 0.3, 0.2)};
-  body.mesh_size = 0.05;
-  body.cells = mesh::CellKind::hexahedron;
-  mesh::BlockMesh<3> mesh = mesh::make_blocks<3>({body, body});
+  mesh::BlockMesh<3> mesh = grid(0.05, 2);
   for (const mesh::Block& block : mesh.blocks) shake(mesh, block.nodes);
   const RepeatedCells<3> repeated(mesh, unit_conductivity(mesh));
   const std::size_t half = mesh.cells.size() / 2;
@@ -152,12 +141,7 @@ TEST(RepeatedCells, CellsOfTwoUnevenBlocksThatAreTheSameAreFoundHoweverFarApart)
 }
 
 TEST(RepeatedCells, EqualCellsOfOtherConductivityDiffer) {
-  mesh::BodySpec body;
-  body.name = "boxes";
-  body.shape = mesh::Box{.size = Eigen::Vector3d::Constant(0.1)};
-  body.mesh_size = 0.05;
-  body.cells = mesh::CellKind::hexahedron;
-  mesh::BlockMesh<3> mesh = mesh::make_blocks<3>({body, body});
+  const mesh::BlockMesh<3> mesh = test::boxes_of_hexahedra({0.1, 0.1, 0.1}, 0.05, 2);
   auto conductivity = unit_conductivity(mesh);
   conductivity[BlockId{1}] *= 3;
   const RepeatedCells<3> repeated(mesh, conductivity);

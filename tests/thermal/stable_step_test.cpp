@@ -7,6 +7,7 @@
 
 #include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
+#include "tests/thermal/grids.h"
 #include "thermal/drive.h"
 #include "thermal/heat_balance.h"
 
@@ -46,9 +47,7 @@ void expect_largest_eigenvalues(double beta) {
   const HeatModel model = rubble<dim>(beta);
   ASSERT_EQ(model.exchanges.size(), 1U);
   Eigen::MatrixXd matrix(model.conductance);
-  const HeatBalance balance(model);
-  Drives drives(model);
-  matrix.diagonal() += balance.linearised(model.initial, drives.at(0)).loss;
+  matrix.diagonal() += loss_to_surroundings(model, model.initial, Drives(model).at(0));
   const double bound = 2 / stable_step(model).step;
   EXPECT_GE(bound, (1 - 1e-12) * largest_eigenvalue(model, matrix)) << beta;
   const double of_magnitudes = largest_eigenvalue(model, matrix.cwiseAbs());
@@ -63,22 +62,12 @@ TEST(StableStep, IsThatOfTheLargestEigenvalueOfTheMagnitudesHoweverStiffTheJoint
   }
 }
 
-mesh::BlockMesh<3> grid(const Eigen::Vector3d& size, double mesh_size) {
-  mesh::BodySpec body;
-  body.name = "box";
-  body.shape = mesh::Box{.size = size};
-  body.mesh_size = mesh_size;
-  body.cells = mesh::CellKind::hexahedron;
-  body.material = MaterialId{0};
-  return mesh::make_blocks<3>({body});
-}
-
 // Of a grid the bound by its cells is the largest eigenvalue itself: all corners of all cells move against each other. In
 // fourth order the operator is C^-1 (I + B C^-1) K, the eigenvalues of which are those of a symmetric matrix, too.
 TEST(StableStep, OfAGridOfEqualBoxesIsThatOfTheFastestModeItself) {
   for (const Eigen::Vector3d& size : {Eigen::Vector3d(0.4, 0.4, 0.4), Eigen::Vector3d(0.31, 0.4, 0.47)}) {
     for (const SpaceOrder order : {SpaceOrder::second, SpaceOrder::fourth}) {
-      const auto mesh = grid(size, 0.1);
+      const auto mesh = test::boxes_of_hexahedra(size, 0.1);
       HeatOptions options = test::options_for(mesh, 300);
       options.space_order = order;
       const HeatModel model = make_heat_model<3>(mesh, test::rock_only(), {}, options);
@@ -94,7 +83,7 @@ TEST(StableStep, OfAGridOfEqualBoxesIsThatOfTheFastestModeItself) {
 }
 
 TEST(StableStep, OfAGridWithJointsOrUnevenCellsOwesNothingToItsCells) {
-  auto mesh = grid({0.4, 0.4, 0.4}, 0.1);
+  auto mesh = test::boxes_of_hexahedra({0.4, 0.4, 0.4}, 0.1);
   mesh.nodes[NodeId{0}].x() -= 1e-3;
   EXPECT_FALSE(make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300)).fastest_cell);
   test::Slab<2> loose;

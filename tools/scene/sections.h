@@ -26,7 +26,7 @@ std::optional<output::StoredField> read_initial_field(const Checked& initial);
 double read_frames_every(const Checked& output, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& problems);
 
-// What one section needs of another: a density to settle, a conductivity for heat, a temperature for every body.
+// What one section needs of another: a density to settle, a conductivity for heat, an integrator that can do what changes.
 void check_needs(const Scene& scene, const Checked& checked, Problems& problems);
 
 // A quantity of place and time, or of temperature, in any of its forms.
