@@ -31,7 +31,12 @@ SCREE_INLINE void flows_of(std::span<const RowRun> runs, const int* column, cons
     fetch_ahead(column + run.begin, value + run.begin);
     const int numbers = columns * run.rows;
     int at = 0;
-    for (; at + 4 <= numbers; at += 4) flow_of<columns, 4>(run, column, value, x, at, flow);
+    // Sums wait for their own last addition only: four of them side by side, and each value is read for all.
+    constexpr int wide = 4 * numbers_in_quad;
+    for (; at + wide <= numbers; at += wide) flow_of<columns, wide>(run, column, value, x, at, flow);
+    for (; at + numbers_in_quad <= numbers; at += numbers_in_quad) {
+      flow_of<columns, numbers_in_quad>(run, column, value, x, at, flow);
+    }
     for (; at < numbers; at += columns) flow_of<columns, columns>(run, column, value, x, at, flow);
     flow += numbers;
   }
