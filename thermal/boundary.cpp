@@ -29,8 +29,8 @@ std::string text(const Eigen::Matrix<double, dim, 1>& point) {
 template <int dim>
 class Applier {
  public:
-  Applier(const mesh::BlockMesh<dim>& mesh, double until, HeatModel& model)
-      : mesh_(mesh), model_(model), until_(until), blocks_of_(mesh.bodies.size()) {
+  Applier(const mesh::BlockMesh<dim>& mesh, double until, const MovingBodies& moving, HeatModel& model)
+      : mesh_(mesh), model_(model), until_(until), moving_(moving), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
     Aabb<dim> extent;
     for (const Point<dim>& point : mesh.nodes) extent.extend(point);
@@ -42,6 +42,7 @@ class Applier {
       no_such_surface(boundary);
       return;
     }
+    if (not_known_yet(boundary.region)) return;
     if (const auto* fixed = std::get_if<FixedTemperature>(&boundary.condition)) {
       fix(boundary, fixed->temperature);
       return;
@@ -62,6 +63,7 @@ class Applier {
   }
 
   void apply(const Source& source) {
+    if (not_known_yet(source.region)) return;
     SharesByNode shares;
     for (const BlockId b : blocks_of_[source.region.body]) {
       mesh::for_each_simplex(mesh_, mesh_.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
@@ -98,6 +100,8 @@ class Applier {
     }
     return list;
   }
+
+  bool not_known_yet(const Region& region) const { return region.within && moving_.contains(region.body); }
 
   bool inside(const Region& region, const Point<dim>& point) const {
     if (!region.within) return true;
@@ -218,7 +222,8 @@ class Applier {
 
   const mesh::BlockMesh<dim>& mesh_;
   HeatModel& model_;
-  double until_;                                                 // end of the run [s]
+  double until_;  // end of the run [s]
+  const MovingBodies& moving_;
   std::optional<Table<FaceId, mesh::WeightedFace<dim>>> faces_;  // once something passes heat through faces
   Table<BodyId, std::vector<BlockId>> blocks_of_;
   double rounding_ = 0;         // [m]
@@ -229,14 +234,15 @@ class Applier {
 }  // namespace
 
 template <int dim>
-void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model) {
-  Applier<dim> applier(mesh, options.time.until, model);
+void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, const MovingBodies& moving,
+                      HeatModel& model) {
+  Applier<dim> applier(mesh, options.time.until, moving, model);
   for (const Boundary& boundary : options.boundaries) applier.apply(boundary);
   for (const Source& source : options.sources) applier.apply(source);
   applier.finish();
 }
 
-template void apply_boundaries<2>(const mesh::BlockMesh<2>&, const HeatOptions&, HeatModel&);
-template void apply_boundaries<3>(const mesh::BlockMesh<3>&, const HeatOptions&, HeatModel&);
+template void apply_boundaries<2>(const mesh::BlockMesh<2>&, const HeatOptions&, const MovingBodies&, HeatModel&);
+template void apply_boundaries<3>(const mesh::BlockMesh<3>&, const HeatOptions&, const MovingBodies&, HeatModel&);
 
 }  // namespace scree::thermal

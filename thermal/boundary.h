@@ -9,8 +9,10 @@
 namespace scree::thermal {
 
 // Fills in the holds, loads and exchanges of `model`, which has its places and sizes already. Throws InputError, all
-// problems in one, for a region that holds nothing and for a node that two boundaries hold at different temperatures.
+// problems in one, for a region that holds nothing and for a node that two boundaries hold at different temperatures. Of
+// bodies that still move, regions within a box are left out: what they will hold is not known.
 template <int dim>
-void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model);
+void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, const MovingBodies& moving,
+                      HeatModel& model);
 
 }  // namespace scree::thermal

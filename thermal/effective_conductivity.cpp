@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/mesh/disjoint_sets.h"
 #include "thermal/free_nodes.h"
@@ -12,6 +13,11 @@
 namespace scree::thermal {
 
 namespace {
+
+template <int dim>
+std::string span_of(const Aabb<dim>& box) {
+  return fmt::format("from ({:g}) to ({:g}) m", fmt::join(box.min(), ", "), fmt::join(box.max(), ", "));
+}
 
 // Steady temperatures of the blocks in and around a window, under temperatures and flows of its own.
 template <int dim>
@@ -24,19 +30,13 @@ class Sample {
     model_.holds.clear();
     model_.loads.clear();
     model_.exchanges.clear();
-    for (const ElementId e : mesh.elements.ids()) {
-      Point<dim> centre = Point<dim>::Zero();
-      for (const NodeId node : mesh.elements[e]) centre += mesh.nodes[node] / (dim + 1);
-      if (window.contains(centre)) inside_.push_back(e);
-    }
+    inside_ = elements_in(mesh, window);
     if (model.varying) {
       throw InputError(problem("heat.effective_conductivity", "a material whose properties depend on temperature",
                                "must have constant properties", "Give the values at the temperature of interest"));
     }
     rows_.resize(static_cast<std::size_t>(model.capacity.size()));
     for (const NodeId node : mesh.nodes.ids()) rows_[model.rows[node].index()] = node;
-    if (!inside_.empty()) return;
-    throw InputError(problem("heat.effective_conductivity", "a window", "must hold the centre of at least one element"));
   }
 
   [[nodiscard]] EffectiveConductivity<dim> measure() {
@@ -206,12 +206,29 @@ class Sample {
 }  // namespace
 
 template <int dim>
+std::vector<ElementId> elements_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
+  std::vector<ElementId> inside;
+  for (const ElementId e : mesh.elements.ids()) {
+    Point<dim> centre = Point<dim>::Zero();
+    for (const NodeId node : mesh.elements[e]) centre += mesh.nodes[node] / (dim + 1);
+    if (window.contains(centre)) inside.push_back(e);
+  }
+  if (!inside.empty()) return inside;
+  Aabb<dim> extent;
+  for (const Point<dim>& node : mesh.nodes) extent.extend(node);
+  throw InputError(problem("heat.effective_conductivity", "a window " + span_of(window),
+                           "must hold the centre of at least one element", "The blocks reach " + span_of(extent)));
+}
+
+template <int dim>
 EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& mesh,
                                                   const Table<MaterialId, Material>& materials, const HeatModel& model,
                                                   const Aabb<dim>& window) {
   return Sample<dim>(mesh, materials, model, window).measure();
 }
 
+template std::vector<ElementId> elements_in<2>(const mesh::BlockMesh<2>&, const Aabb<2>&);
+template std::vector<ElementId> elements_in<3>(const mesh::BlockMesh<3>&, const Aabb<3>&);
 template EffectiveConductivity<2> effective_conductivity<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
                                                             const HeatModel&, const Aabb<2>&);
 template EffectiveConductivity<3> effective_conductivity<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,

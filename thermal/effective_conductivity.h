@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "thermal/heat_model.h"
 
@@ -21,6 +22,10 @@ struct EffectiveConductivity {
   double solid_fraction = 0;              // of the window's volume [-]
   double volume_mean = 0;                 // of the conductivity, voids at 0: no arrangement conducts better [W/m/K]
 };
+
+// Those whose centre lies in the window. Throws InputError if there is none.
+template <int dim>
+std::vector<ElementId> elements_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
 
 // Nodes on and outside the window's sides are held; elements count whose centre is in it, so sides should follow faces of
 // elements or be far apart. `model` is that of `mesh`, whatever it holds fixed. Throws InputError for a window that holds no

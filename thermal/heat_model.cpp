@@ -81,12 +81,13 @@ void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mate
 }
 
 template <int dim>
-void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, HeatModel& model) {
+void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, const MovingBodies& moving, HeatModel& model) {
   for (const NodeId node : mesh.nodes.ids()) {
     const auto row = static_cast<Eigen::Index>(node.index());
+    const BodyId body = mesh.blocks[model.blocks[node]].body;
     const Eigen::Vector3d place = model.places.col(row);
-    model.initial[row] = options.initial_field ? (*options.initial_field)[row]
-                                               : options.initial_temperature[mesh.blocks[model.blocks[node]].body](place, 0);
+    if (moving.contains(body) && (options.initial_field || options.initial_temperature[body].varies_in_place())) continue;
+    model.initial[row] = options.initial_field ? (*options.initial_field)[row] : options.initial_temperature[body](place, 0);
     if (std::isfinite(model.initial[row]) && model.initial[row] >= 0) continue;
     throw InputError(problem("heat.initial",
                              fmt::format("{:g} at ({:g}, {:g}, {:g}) m", model.initial[row], place.x(), place.y(), place.z()),
@@ -113,6 +114,29 @@ void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mater
   for (const NodeId node : mesh.nodes.ids()) {
     varying.material[node] = static_cast<int>(mesh.bodies[mesh.blocks[model.blocks[node]].body].material.index());
   }
+}
+
+// Nodes, what they start from, and what acts on them from outside.
+template <int dim>
+HeatModel unjoined(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatOptions& options,
+                   const MovingBodies& moving) {
+  check_bodies(mesh, materials, options);
+  if (options.space_order == SpaceOrder::fourth) check_fourth_order(mesh, materials, options);
+  const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
+  HeatModel model;
+  model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
+  model.capacity = Eigen::VectorXd::Zero(size);
+  model.initial = Eigen::VectorXd::Zero(size);
+  model.places = Eigen::Matrix3Xd::Zero(3, size);
+  for (const NodeId node : mesh.nodes.ids()) model.places.col(node.value()).template head<dim>() = mesh.nodes[node];
+  for (const BlockId b : mesh.blocks.ids()) {
+    for (const NodeId node : mesh.blocks[b].nodes) model.blocks[node] = b;
+    model.bodies.push_back(mesh.blocks[b].body);
+  }
+  for (const mesh::Body& body : mesh.bodies) model.body_names.push_back(body.name);
+  set_initial(mesh, options, moving, model);
+  apply_boundaries(mesh, options, moving, model);
+  return model;
 }
 
 // Flux in one block.
@@ -163,6 +187,12 @@ bool has_constant_properties(const HeatModel& model) {
 }
 
 template <int dim>
+void check_heat_options(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                        const HeatOptions& options, const MovingBodies& moving) {
+  unjoined(mesh, materials, options, moving);
+}
+
+template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const HeatOptions& options) {
   check_bodies(mesh, materials, options);
@@ -173,23 +203,8 @@ template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
                           const HeatOptions& options) {
-  check_bodies(mesh, materials, options);
-  if (options.space_order == SpaceOrder::fourth) check_fourth_order(mesh, materials, options);
-  const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
-  HeatModel model;
-  model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
-  model.capacity = Eigen::VectorXd::Zero(size);
-  model.initial.resize(size);
-  model.places = Eigen::Matrix3Xd::Zero(3, size);
-  for (const NodeId node : mesh.nodes.ids()) model.places.col(node.value()).template head<dim>() = mesh.nodes[node];
-  for (const BlockId b : mesh.blocks.ids()) {
-    for (const NodeId node : mesh.blocks[b].nodes) model.blocks[node] = b;
-    model.bodies.push_back(mesh.blocks[b].body);
-  }
-  for (const mesh::Body& body : mesh.bodies) model.body_names.push_back(body.name);
-  set_initial(mesh, options, model);
+  HeatModel model = unjoined(mesh, materials, options, {});
   set_varying(mesh, materials, model);
-  apply_boundaries(mesh, options, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
   // Fourth order knows no neighbours but its own, and a node of two materials no one curve.
   std::optional<Table<NodeId, NodeId>> tied;
@@ -232,6 +247,8 @@ std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const T
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                               \
+  template void check_heat_options<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, const HeatOptions&, \
+                                        const MovingBodies&);                                                                \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
                                           const contact::ContactSet<dim>&, const HeatOptions&);                              \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \

@@ -1,6 +1,7 @@
 // The semi-discrete heat balance C dT/dt = -K T + Q of blocks and contacts.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include <Eigen/Core>
@@ -92,6 +93,15 @@ struct HeatModel {
 
 // Whether F(T, t) is linear in T with coefficients that do not change: what the linear schemes need.
 bool has_constant_properties(const HeatModel& model);
+
+// Bodies whose blocks are not yet where they will be heated.
+using MovingBodies = std::set<BodyId>;
+
+// Throws the InputError that a model of these blocks would be refused with, as far as it can be known before contacts are
+// looked for and while some bodies still move.
+template <int dim>
+void check_heat_options(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                        const HeatOptions& options, const MovingBodies& moving);
 
 // Throws InputError for a block without conductivity, specific heat, density or initial temperature, and for a boundary or
 // source whose region holds nothing.

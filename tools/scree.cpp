@@ -21,6 +21,8 @@
 #include "tools/command_line/manual.h"
 #include "tools/render_command.h"
 #include "tools/report/report_command.h"
+#include "tools/run/packing_stage.h"
+#include "tools/run/preflight.h"
 #include "tools/run/run_scene.h"
 #include "tools/scene/doctor.h"
 #include "tools/scene/keys.h"
@@ -94,12 +96,19 @@ int resume(const Arguments& arguments) {
 
 template <int dim>
 std::string check_report(const scree::Scene& scene) {
-  return scree::to_text(scree::check_scene(scene, scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers())));
+  const auto blocks = scene.packing ? scree::packing::placed_mesh(scree::run::stored_packing<dim>(scene))
+                                    : scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers());
+  scree::run::check_heat(scene, blocks);
+  return scree::to_text(scree::check_scene(scene, blocks));
 }
 
 int check(const Arguments& arguments) {
   const scree::Scene scene = scree::read_scene(arguments.scene, arguments.overrides);
-  fmt::print("{}", scene.dimension == 2 ? check_report<2>(scene) : check_report<3>(scene));
+  try {
+    fmt::print("{}", scene.dimension == 2 ? check_report<2>(scene) : check_report<3>(scene));
+  } catch (const scree::InputError& error) {
+    throw scree::located(scene, error);
+  }
   return 0;
 }
 

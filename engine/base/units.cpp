@@ -79,11 +79,17 @@ bool is_angle(const ut_unit* unit) {
   return length > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
 }
 
+// UDUNITS also converts a unit into its reciprocal, 4 Hz into 0.25 s.
+bool same_dimension(const ut_unit* a, const ut_unit* b) {
+  const Unit ratio{ut_divide(a, b)};
+  return ratio && ut_is_dimensionless(ratio.get()) != 0;
+}
+
 // From `unit` to the SI unit of the quantity, if they measure the same.
 Converter converter_to(const Quantity& quantity, ut_unit* unit) {
   const Unit si = quantity.unit.empty() ? Unit{ut_get_dimensionless_unit_one(units())} : parse_unit(quantity.unit);
   SCREE_EXPECT(si != nullptr);
-  if (!ut_are_convertible(unit, si.get()) || is_angle(unit) != is_angle(si.get())) return nullptr;
+  if (!same_dimension(unit, si.get()) || is_angle(unit) != is_angle(si.get())) return nullptr;
   if (quantity.kind != Quantity::Kind::temperature_difference) return Converter{ut_get_converter(unit, si.get())};
   // As a factor of a product a unit loses its origin: degC m to K m is what differences need, without rounding at 273.15.
   const Unit metre{ut_get_unit_by_name(units(), "meter")};

@@ -25,6 +25,24 @@ std::string csv_field(const std::string& text) {
 
 constexpr std::string_view exact_ending = " exact";
 
+// Comments and names of columns.
+std::string head(const std::vector<std::string>& comments, const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& comment : comments) text += fmt::format("# {}\n", comment);
+  text += "time";
+  for (const std::string& name : names) text += ',' + csv_field(name);
+  return text + '\n';
+}
+
+// The whole lines of a file. One that ends with the file instead of a newline was not finished; getline then reports the end.
+std::vector<std::string> finished_lines(const std::filesystem::path& file) {
+  std::ifstream old(file, std::ios::binary);
+  if (!old) throw RunError(fmt::format("{}: cannot be read ({}). Run the scene again", file.string(), std::strerror(errno)));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(old, line) && !old.eof();) lines.push_back(line + '\n');
+  return lines;
+}
+
 }  // namespace
 
 std::string exact_column(const std::string& probe) {
@@ -39,24 +57,28 @@ std::optional<std::string> probe_of_exact_column(const std::string& column) {
 ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,
                        const std::vector<std::string>& names)
     : file_(std::move(file)) {
-  std::string text;
-  for (const std::string& comment : comments) text += fmt::format("# {}\n", comment);
-  text += "time";
-  for (const std::string& name : names) text += ',' + csv_field(name);
-  write_text(file_, text + '\n');
+  write_text(file_, head(comments, names));
 }
 
-ProbeTable::ProbeTable(std::filesystem::path file, double keep_until) : file_(std::move(file)) {
-  std::ifstream old(file_, std::ios::binary);
-  if (!old) throw RunError(fmt::format("{}: no table to go on with ({})", file_.string(), std::strerror(errno)));
+ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,
+                       const std::vector<std::string>& names, double keep_until)
+    : file_(std::move(file)) {
+  const auto lines = finished_lines(file_);
+  const std::string first = head(comments, names);
   std::string text;
-  // A line that ends with the file instead of a newline was not finished; getline then reports the end of the file.
-  for (std::string line; std::getline(old, line) && !old.eof();) {
-    const bool row = !line.starts_with('#') && !line.starts_with("time");
-    if (row && !(std::strtod(line.c_str(), nullptr) <= keep_until)) break;
-    text += line + '\n';
+  double last = -1;
+  for (const std::string& line : lines) {
+    if (text.size() >= first.size()) {
+      const double time = std::strtod(line.c_str(), nullptr);
+      if (!(time <= keep_until)) break;
+      last = time;
+    }
+    text += line;
   }
-  old.close();
+  if (!text.starts_with(first) || last != keep_until) {
+    throw RunError(fmt::format("{}: lacks its head or its row at {} s, from where the run would go on. Run the scene again",
+                               file_.string(), keep_until));
+  }
   write_text(file_, text);
 }
 

@@ -19,9 +19,10 @@ class ProbeTable {
  public:
   // A new table; an older one of that name is replaced. Throws RunError.
   ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments, const std::vector<std::string>& names);
-  // Goes on with the table of an interrupted run: keeps the rows up to and including `keep_until` [s] and drops the later ones,
-  // a half-written last one included. Throws RunError if there is no such table.
-  ProbeTable(std::filesystem::path file, double keep_until);
+  // Goes on with the table of an interrupted run: keeps the rows up to and including the one at `keep_until` [s] and drops the
+  // later ones, a half-written last one included. Throws RunError if there is no such table, or it lacks its head or that row.
+  ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments, const std::vector<std::string>& names,
+             double keep_until);
 
   // Adds a row for `time` [s]. Throws RunError (disk full) and leaves the table as it was.
   void append(double time, const std::vector<double>& values);

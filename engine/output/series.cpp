@@ -31,11 +31,15 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
     fs::create_directories(directory_ / name_);
     fs::remove(directory_ / fmt::format(".part-{}.pvd", name_));
     std::set<fs::path> kept;
-    if (keep_until && fs::exists(index_)) {
+    if (keep_until) {
       for (SeriesEntry& entry : read_index(index_)) {
         if (entry.time > *keep_until) continue;
         kept.insert(directory_ / entry.file);
         entries_.push_back(std::move(entry));
+      }
+      if (entries_.empty() || entries_.back().time != *keep_until) {
+        throw RunError(fmt::format("{}: has no frame at {} s, from where the run would go on. Run the scene again",
+                                   index_.string(), *keep_until));
       }
     }
     // The index goes first, so that it never names a file that is gone.

@@ -18,8 +18,8 @@ namespace scree::output {
 class Series {
  public:
   // A series `name`.pvd in `directory` with its data in `directory`/`name`/; the .pvd appears with the first frame. An older
-  // series of that name is removed; with `keep_until` its frames up to and including that time stay (a resumed run), and its
-  // damage, if it has any, is a RunError. Throws RunError if nothing can be written.
+  // series of that name is removed; with `keep_until` its frames up to and including the one at that time stay (a resumed
+  // run), and if they are not there that is a RunError. Throws RunError if nothing can be written.
   Series(std::filesystem::path directory, std::string name, std::optional<double> keep_until = std::nullopt);
 
   // Appends a frame, later than the one before. Throws RunError (disk full) and leaves the series as it was before.

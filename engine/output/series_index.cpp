@@ -12,7 +12,8 @@
 namespace scree::output {
 
 std::vector<SeriesEntry> read_index(const std::filesystem::path& index) {
-  if (!std::filesystem::is_regular_file(index)) throw RunError(fmt::format("{}: there is no such series", index.string()));
+  if (!std::filesystem::is_regular_file(index))
+    throw RunError(fmt::format("{}: there is no such series of frames", index.string()));
   boost::property_tree::ptree root;
   try {
     boost::property_tree::read_xml(index.string(), root);

@@ -86,6 +86,19 @@ TEST(Units, AWrongDimensionIsRefused) {
   EXPECT_EQ(reason_of("45 deg", q::number), "deg is no unit of a plain number | Did you mean 45?");
 }
 
+TEST(Units, AReciprocalIsRefused) {
+  for (const auto& [text, quantity] : {std::pair{"4 Hz", q::time},
+                                       {"2 s-1", q::time},
+                                       {"40 m-1", q::length},
+                                       {"2 m-3", q::length},
+                                       {"0.001 m3/kg", q::density},
+                                       {"0.5 m K/W", q::conductivity},
+                                       {"10 K-1", q::temperature}}) {
+    EXPECT_THAT(reason_of(text, quantity), testing::HasSubstr("is no unit of")) << text;
+  }
+  EXPECT_TRUE(std::holds_alternative<UnitProblem>(unit_converter("Hz", q::time)));
+}
+
 TEST(Units, UnknownUnitsAndOddSpellingsAreRefused) {
   EXPECT_EQ(reason_of("3 furlongz", q::length), "furlongz is no known unit | Did you mean 3 m?");
   EXPECT_EQ(reason_of("3 m 2", q::length), "m 2 is no known unit | Did you mean 3 m?");

@@ -34,19 +34,28 @@ TEST_F(ProbeTableTest, AResumedRunKeepsTheRowsUpToItsTime) {
     ProbeTable table(file_, {"low"}, {"low"});
     for (const double time : {0.0, 0.1, 0.2, 0.3}) table.append(time, {1 + time});
   }
-  ProbeTable table(file_, 0.1);
+  ProbeTable table(file_, {"low"}, {"low"}, 0.1);
   table.append(0.15, {7});
   EXPECT_EQ(content(file_), "# low\ntime,low\n0,1\n0.1,1.1\n0.15,7\n");
 }
 
 TEST_F(ProbeTableTest, AResumedRunDropsAHalfWrittenRow) {
-  std::ofstream(file_) << "time,low\n0,1\n0.1,29";
-  const ProbeTable table(file_, 0.1);
-  EXPECT_EQ(content(file_), "time,low\n0,1\n");
+  std::ofstream(file_) << "time,low\n0,1\n0.1,29\n0.2,";
+  const ProbeTable table(file_, {}, {"low"}, 0.1);
+  EXPECT_EQ(content(file_), "time,low\n0,1\n0.1,29\n");
+}
+
+TEST_F(ProbeTableTest, ATableThatWasCutOrIsAnotherIsNotGoneOnWith) {
+  for (const char* damaged : {"", "time,low\n0,1\n0.1,29", "time,low\n0,1\n0.2,3\n", "0,1\n0.1,2\n", "time,high\n0,1\n0.1,2\n",
+                              "\x01junk\n0.1,2\n"}) {
+    std::ofstream(file_) << damaged;
+    EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), RunError) << damaged;
+    EXPECT_EQ(content(file_), damaged);
+  }
 }
 
 TEST_F(ProbeTableTest, ResumingWithoutATableFails) {
-  EXPECT_THROW(ProbeTable(file_, 0.1), RunError);
+  EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), RunError);
 }
 
 TEST_F(ProbeTableTest, AFullDiskLeavesTheTableAsItWas) {

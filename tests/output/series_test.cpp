@@ -263,6 +263,18 @@ TEST_F(SeriesTest, ResumingADamagedSeriesSaysWhatIsMissing) {
   }
 }
 
+TEST_F(SeriesTest, ASeriesWithoutItsIndexOrItsLastFrameIsNotGoneOnWithAndStays) {
+  {
+    Series series(folder_.path(), "heat");
+    write_frames(series, {0, 1});
+  }
+  EXPECT_THROW(Series(folder_.path(), "heat", 2), RunError);
+  EXPECT_THAT(times_of(pvd_), ElementsAre(0, 1));
+  fs::remove(pvd_);
+  EXPECT_THROW(Series(folder_.path(), "heat", 1), RunError);
+  EXPECT_THAT(files_in(data_), ElementsAre("heat_000000.vtu", "heat_000001.vtu"));
+}
+
 TEST_F(SeriesTest, AFullDiskIsAnErrorAndLeavesTheSeriesAsItWas) {
   Series series(folder_.path(), "heat");
   write_frames(series, {0});

@@ -100,14 +100,6 @@ TEST(Doctor, FindsBlocksThatTouchNothing) {
               ElementsAre("1 of 1 blocks of body c2 touch nothing: no heat passes to or from them"));
 }
 
-TEST(Doctor, FindsProbesInVoids) {
-  const auto found = report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1]"}) + "heat: {initial: 300, until: 1}\n" +
-                               "output: {every: 1, probes: {in: [0, 0, 0.2], out: [4, 0, 0]}}\n")
-                         .suspicious;
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_THAT(found.front(), HasSubstr("out"));
-}
-
 TEST(Doctor, FindsWhatIsNotUsed) {
   const std::string two =
       "materials: {a: {}, b: {}}\nbodies:\n  c: {box: {size: [1, 1, 1], centre: [0, 0, 0]}, material: a, mesh_size: "

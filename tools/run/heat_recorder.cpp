@@ -11,8 +11,11 @@ namespace scree::run {
 namespace {
 
 template <int dim>
-output::ProbeTable start_table(const RunFiles& files, const HeatedPile<dim>& pile) {
-  return output::ProbeTable(files.probes(), output::describe(pile.probes, pile.mesh), output::columns(pile.probes));
+output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile, std::optional<double> resumed_from) {
+  const auto comments = output::describe(pile.probes, pile.mesh);
+  const auto columns = output::columns(pile.probes);
+  return resumed_from ? output::ProbeTable(files.probes(), comments, columns, *resumed_from)
+                      : output::ProbeTable(files.probes(), comments, columns);
 }
 
 // At the multiples of the frames' interval, and at the end.
@@ -51,12 +54,7 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
     contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts));
   };
   call_both(several_threads_, share_blocks, share_contacts);
-  if (pile.probes.empty()) return;
-  if (resumed_from) {
-    table_.emplace(files.probes(), *resumed_from);
-  } else {
-    table_.emplace(start_table(files, pile));
-  }
+  if (!pile.probes.empty()) table_.emplace(open_table(files, pile, resumed_from));
 }
 
 template <int dim>

@@ -88,11 +88,9 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   outcome.pile = find_pile(context, std::move(packing));
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
                                 [&] { return heat_model(scene, outcome.pile); });
-  if (scene.effective_window) {
-    const Aabb<dim> window(scene.effective_window->min().template head<dim>(),
-                           scene.effective_window->max().template head<dim>());
+  if (const auto window = effective_window<dim>(scene)) {
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
-      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, window);
+      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, *window);
     });
   }
   if (const auto said = lumped_words(*outcome.model)) context.progress.note("heat: " + *said);

@@ -25,13 +25,19 @@ std::optional<Eigen::VectorXd> earlier_temperatures(const Scene& scene, const me
   return field.values;
 }
 
-// Where nodes are worth it.
+}  // namespace
+
 output::Reading probe_reading(const Scene& scene) {
   const bool fourth = scene.heat && scene.heat->space_order == thermal::SpaceOrder::fourth;
   return fourth ? output::Reading::cubic : output::Reading::linear;
 }
 
-}  // namespace
+template <int dim>
+std::optional<Aabb<dim>> effective_window(const Scene& scene) {
+  if (!scene.effective_window) return std::nullopt;
+  const Aabb<3>& window = *scene.effective_window;
+  return Aabb<dim>(window.min().template head<dim>(), window.max().template head<dim>());
+}
 
 template <int dim>
 HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
@@ -74,6 +80,7 @@ std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const H
 #define SCREE_INSTANTIATE(dim)                                                               \
   template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,      \
                                             const std::function<void(const std::string&)>&); \
+  template std::optional<Aabb<dim>> effective_window<dim>(const Scene&);                     \
   template contact::ContactOptions search_of<dim>(const Scene&, const HeatedPile<dim>&);     \
   template void join<dim>(const Scene&, HeatedPile<dim>&);                                   \
   template std::shared_ptr<const thermal::HeatModel> heat_model<dim>(const Scene&, const HeatedPile<dim>&);

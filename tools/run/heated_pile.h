@@ -32,6 +32,13 @@ template <int dim>
 HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
                             const std::function<void(const std::string&)>& note = {});
 
+// How probes are read: from polynomials where nodes are worth it.
+output::Reading probe_reading(const Scene& scene);
+
+// Of which the effective conductivity is asked, if it is.
+template <int dim>
+std::optional<Aabb<dim>> effective_window(const Scene& scene);
+
 // How its bodies' contacts are looked for.
 template <int dim>
 contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile);

@@ -9,6 +9,7 @@
 #include "tools/run/certificate.h"
 #include "tools/run/summary.h"
 #include "tools/scene/doctor.h"
+#include "tools/scene/read_scene.h"
 
 namespace scree::run {
 
@@ -80,7 +81,7 @@ Ending run_to_an_end(RunContext& context, Json& summary) {
         130,
         {fmt::format("interrupted; `scree resume {}` goes on from the last finished time", context.files.directory.string())}};
   } catch (const InputError& error) {
-    return {"bad_input", 2, {error.what()}};
+    return {"bad_input", 2, {located(context.scene, error).what()}};
   } catch (const std::exception& error) {
     return {"failed", 1, {error.what()}};
   }

@@ -79,14 +79,13 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   if (!scene.settle && !scene.packing && !scene.heat) {
     sentences.push_back("the scene has neither a settle nor a heat section: nothing happens");
   }
-  if (scene.packing) return report;  // the blocks lie where the packing says, not where they are meshed
+  if (scene.packing) return report;  // the run that made it has judged how the blocks lie
   append(sentences, overlapping_bodies(mesh));
   if constexpr (dim == 3) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }
   if (scene.settle || !scene.heat) return report;
   append(sentences, isolated_blocks(mesh, *scene.contact, *scene.heat));
-  append(sentences, probes_in_voids(mesh, scene.probes));
   return report;
 }
 template CheckReport check_scene(const Scene&, const mesh::BlockMesh<2>&);

@@ -31,7 +31,7 @@ struct CheckReport {
 // What the scene asks for, and why the rest is left out.
 std::vector<Model> models_of(const Scene& scene);
 
-// `mesh` is the scene's blocks before anything moves.
+// `mesh` is the scene's blocks before anything moves, or as its packing has them.
 template <int dim>
 CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh);
 

@@ -16,11 +16,26 @@ void need(const Checked& material, const std::string& property, const std::strin
   problems.push_back({material.where, material.path + "." + property, "missing", reason, ""});
 }
 
+// Nothing: no property does.
+const Material* varying_material(const Scene& scene) {
+  for (const mesh::BodySpec& body : scene.bodies) {
+    if (body.material.valid() && varies(scene.materials[body.material])) return &scene.materials[body.material];
+  }
+  return nullptr;
+}
+
+void check_effective_conductivity(const Scene& scene, const Checked& window, Problems& problems) {
+  const Material* varying = varying_material(scene);
+  if (varying == nullptr) return;
+  problems.push_back(window.problem(window.text,
+                                    "needs constant properties: those of " + varying->name + " depend on temperature",
+                                    "Give the values at the temperature of interest"));
+}
+
 // What makes the equations of heat other than linear with constant coefficients; empty: nothing.
 std::string changing_equations(const Scene& scene) {
-  for (const mesh::BodySpec& body : scene.bodies) {
-    if (!body.material.valid() || !varies(scene.materials[body.material])) continue;
-    return fmt::format("properties of {} depend on temperature", scene.materials[body.material].name);
+  if (const Material* varying = varying_material(scene)) {
+    return fmt::format("properties of {} depend on temperature", varying->name);
   }
   for (const thermal::Boundary& boundary : scene.heat->boundaries) {
     if (std::holds_alternative<thermal::Radiation>(boundary.condition))
@@ -85,7 +100,9 @@ void check_needs(const Scene& scene, const Checked& checked, Problems& problems)
     const std::string reason = fmt::format("heat is modelled in body {}", body.name);
     for (const char* property : {"density", "conductivity", "specific_heat"}) need(material, property, reason, problems);
   }
-  if (scene.heat) check_integrator(scene, checked.at("heat"), problems);
+  if (!scene.heat) return;
+  check_integrator(scene, checked.at("heat"), problems);
+  if (scene.effective_window) check_effective_conductivity(scene, checked.at("heat").at("effective_conductivity"), problems);
 }
 
 }  // namespace scree

@@ -48,6 +48,25 @@ void make_paths_absolute(Checked& checked, const std::filesystem::path& folder) 
   for (Checked& item : checked.items) make_paths_absolute(item, folder);
 }
 
+void collect_places(const Checked& checked, std::map<std::string, SourceLocation>& places) {
+  if (checked.given && !checked.path.empty()) places.emplace(checked.path, checked.where);
+  for (const CheckedEntry& entry : checked.entries) collect_places(entry.value, places);
+  for (const Checked& item : checked.items) collect_places(item, places);
+}
+
+// Of a key, or of the section that would hold it.
+SourceLocation place_of(const Scene& scene, std::string key) {
+  while (!key.empty()) {
+    const auto found = scene.places.find(key);
+    if (found != scene.places.end()) return found->second;
+    const auto cut = key.find_last_of(".[");
+    key.resize(cut == std::string::npos ? 0 : cut);
+  }
+  SourceLocation file;
+  file.file = scene.file.string();
+  return file;
+}
+
 [[noreturn]] void refuse(Problems problems) {
   std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
     return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
@@ -91,11 +110,20 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));
   collect_tables(checked, scene.tables);
+  collect_places(checked, scene.places);
   scene.effective = to_yaml(checked);
   return scene;
 }
 
 }  // namespace
+
+InputError located(const Scene& scene, const InputError& error) {
+  Problems problems = error.problems();
+  for (Problem& problem : problems) {
+    if (problem.where.file.empty()) problem.where = place_of(scene, problem.key);
+  }
+  return InputError(std::move(problems));
+}
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   return read(read_yaml(file), file, overrides);

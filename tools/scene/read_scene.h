@@ -17,4 +17,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 Scene read_scene_text(const std::string& text, const std::filesystem::path& folder,
                       const std::vector<std::string>& overrides = {});
 
+// An error of a later stage with the places in the scene of the keys it speaks of, where it does not name any.
+InputError located(const Scene& scene, const InputError& error);
+
 }  // namespace scree

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,8 +42,9 @@ struct Scene {
   double frames_every =
       0;  // time between frames of heat.pvd, a multiple of heat->time.output_every; 0: at all output times [s]
   std::vector<output::ProbeSpec> probes;
-  std::vector<std::filesystem::path> tables;  // files that functions and curves come from
-  std::string effective;                      // the scene as YAML with every default filled in; reading it gives the same scene
+  std::vector<std::filesystem::path> tables;     // files that functions and curves come from
+  std::map<std::string, SourceLocation> places;  // where each key is written
+  std::string effective;  // the scene as YAML with every default filled in; reading it gives the same scene
 };
 
 }  // namespace scree

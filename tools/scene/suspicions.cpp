@@ -75,17 +75,4 @@ Sentences cold_bare_temperatures(const Scene& scene) {
   return sentences;
 }
 
-template <int dim>
-Sentences probes_in_voids(const mesh::BlockMesh<dim>& mesh, const std::vector<output::ProbeSpec>& probes) {
-  Sentences sentences;
-  try {
-    output::locate_probes(mesh, probes);
-  } catch (const InputError& error) {
-    for (const Problem& problem : error.problems()) sentences.push_back(to_string(problem));
-  }
-  return sentences;
-}
-template Sentences probes_in_voids(const mesh::BlockMesh<2>&, const std::vector<output::ProbeSpec>&);
-template Sentences probes_in_voids(const mesh::BlockMesh<3>&, const std::vector<output::ProbeSpec>&);
-
 }  // namespace scree

@@ -31,8 +31,4 @@ template <int dim>
 Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
                           const thermal::HeatOptions& heat);
 
-// Probes that no block holds.
-template <int dim>
-Sentences probes_in_voids(const mesh::BlockMesh<dim>& mesh, const std::vector<output::ProbeSpec>& probes);
-
 }  // namespace scree

@@ -1,0 +1,83 @@
+// What a scene's heat asks of its blocks, found before any work is done.
+
+#include <gmock/gmock.h>
+
+#include "engine/mesh/make_blocks.h"
+#include "engine/packing/packing.h"
+#include "tests/scenes/scene_run.h"
+#include "tools/run/preflight.h"
+#include "tools/scene/read_scene.h"
+
+namespace scree::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string still =
+    "materials: {rock: {density: 2500, conductivity: 3, specific_heat: 880, friction: 0.5}}\n"
+    "bodies:\n"
+    "  plate: {box: {size: [1, 1, 0.1], centre: [0, 0, -0.05]}, material: rock, mesh_size: 0.5, fixed: true}\n"
+    "  cube: {box: {size: [0.2, 0.2, 0.2], centre: [0, 0, 0.1]}, material: rock, mesh_size: 0.1}\n"
+    "heat: {initial: 300, boundaries: [{body: plate, temperature: 400}], until: 1 h}\n"
+    "output: {every: 1 h, probes: {p: [0, 0, 0.1]}}\n";
+const std::string settling = still + "settle:\n";
+
+// What the scene is refused with before any work; empty: nothing.
+std::string refused(const std::string& text, const std::string& override) {
+  const Scene scene = read_scene_text(text, ".", {override});
+  const auto blocks = mesh::make_blocks<3>(scene.bodies, {});
+  try {
+    run::check_heat(scene, blocks);
+  } catch (const InputError& error) {
+    return located(scene, error).what();
+  }
+  return {};
+}
+
+struct Case {
+  const char* override;
+  const char* place;
+  const char* said;
+};
+
+TEST(Preflight, FindsWhatTheBlocksCannotGive) {
+  const Case cases[] = {
+      {"heat.boundaries.0.surface=nope", "scene:5:35: ", "must be a surface of body plate"},
+      {"heat.boundaries.0.within={low: [5, 5, 5], high: [6, 6, 6]}", "scene:5:35: ", "must hold at least one node"},
+      {"heat.sources=[{body: plate, power: 1, within: {low: [5, 5, 5], high: [6, 6, 6]}}]",
+       "--set heat.sources: ", "at least one element's centre"},
+      {"heat.effective_conductivity={low: [5, 5, 5], high: [6, 6, 6]}", "--set heat.effective_conductivity: ",
+       "is a window from (5, 5, 5) to (6, 6, 6) m (must hold the centre of at least one element)"},
+      {"heat.space_order=4", "--set heat.space_order: ", "must have blocks of hexahedra"},
+      {"heat.initial={expression: 300 + 1/(z - z), unit: K}", "--set heat.initial: ", "inf K at x ="},
+      {"output.probes={p: [9, 9, 9]}", "--set output.probes: ", "output.probes.p is [9, 9, 9]"},
+  };
+  for (const Case& wrong : cases) {
+    EXPECT_THAT(refused(still, wrong.override), AllOf(HasSubstr(wrong.said), HasSubstr(wrong.place))) << wrong.override;
+  }
+  EXPECT_EQ(refused(still, "title=nothing wrong"), "");
+}
+
+TEST(Preflight, OfASceneThatSettlesFindsWhatDoesNotDependOnWhereBlocksWillLie) {
+  EXPECT_THAT(refused(settling, "heat.boundaries.0.surface=nope"), HasSubstr("must be a surface of body plate"));
+  EXPECT_THAT(refused(settling, "heat.boundaries.0.within={low: [5, 5, 5], high: [6, 6, 6]}"),
+              HasSubstr("must hold at least one node"));
+  EXPECT_THAT(refused(settling, "heat.space_order=4"), HasSubstr("must have blocks of hexahedra"));
+  EXPECT_THAT(refused(settling, "heat.initial={from: no_folder}"), HasSubstr("no_folder (must be there)"));
+  EXPECT_EQ(refused(settling, "heat.sources=[{body: cube, power: 1, within: {low: [5, 5, 5], high: [6, 6, 6]}}]"), "");
+  EXPECT_EQ(refused(settling, "output.probes={p: [0, 0, 9]}"), "");
+  EXPECT_EQ(refused(settling, "heat.initial={cube: {expression: 1/(z - z), unit: K}, plate: 300}"), "");
+}
+
+TEST(Preflight, ARunRefusesBeforeAnythingFalls) {
+  const auto directory = fresh_directory("preflight");
+  const SceneRun run = test::run("small_pile", directory, {"heat.boundaries.0.surface=nope"});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_FALSE(std::filesystem::exists(directory / "settle"));
+  EXPECT_FALSE(std::filesystem::exists(directory / "packing.h5"));
+  EXPECT_THAT(run.summary["reasons"][0].get<std::string>(), HasSubstr("must be a surface of body plate"));
+}
+
+}  // namespace
+}  // namespace scree::test

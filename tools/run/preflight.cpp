@@ -1,0 +1,63 @@
+#include "tools/run/preflight.h"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "engine/output/stored_field.h"
+#include "thermal/effective_conductivity.h"
+#include "tools/run/heated_pile.h"
+
+namespace scree::run {
+
+namespace {
+
+thermal::MovingBodies moving_bodies(const Scene& scene) {
+  thermal::MovingBodies moving;
+  if (!scene.settle) return moving;
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (!scene.bodies[body].fixed) moving.insert(BodyId{body});
+  }
+  return moving;
+}
+
+// Which temperatures its nodes will find there is known when they have come to rest.
+void check_is_there(const output::StoredField& stored) {
+  std::error_code ignored;
+  if (std::filesystem::exists(stored.from, ignored)) return;
+  Problem problem;
+  problem.where = stored.where;
+  problem.key = "heat.initial.from";
+  problem.value = stored.from.string();
+  problem.rule = "must be there";
+  problem.suggestion = "Name the output directory of a run with heat, a .pvd or a .vtu";
+  throw InputError(std::move(problem));
+}
+
+// The temperatures to start from, if they are those of an earlier run; any while blocks move.
+template <int dim>
+std::optional<Eigen::VectorXd> earlier_field(const Scene& scene, const mesh::BlockMesh<dim>& blocks, bool moving) {
+  if (!scene.initial_field) return std::nullopt;
+  if (!moving) return output::read_stored(*scene.initial_field, blocks).values;
+  check_is_there(*scene.initial_field);
+  return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blocks.nodes.size()));
+}
+
+}  // namespace
+
+template <int dim>
+void check_heat(const Scene& scene, const mesh::BlockMesh<dim>& blocks) {
+  if (!scene.heat) return;
+  const thermal::MovingBodies moving = moving_bodies(scene);
+  thermal::HeatOptions options = *scene.heat;
+  options.initial_field = earlier_field(scene, blocks, !moving.empty());
+  thermal::check_heat_options(blocks, scene.materials, options, moving);
+  if (!moving.empty()) return;
+  output::locate_probes(blocks, scene.probes, probe_reading(scene));
+  if (const auto window = effective_window<dim>(scene)) thermal::elements_in(blocks, *window);
+}
+
+template void check_heat<2>(const Scene&, const mesh::BlockMesh<2>&);
+template void check_heat<3>(const Scene&, const mesh::BlockMesh<3>&);
+
+}  // namespace scree::run
