@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/base/check.h"
 #include "engine/base/units.h"
@@ -31,6 +32,14 @@ Look look_of(const RenderArguments& arguments) {
   return {array, array};
 }
 
+[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& rule) {
+  Problem wrong;
+  wrong.key = option;
+  wrong.value = value;
+  wrong.rule = rule;
+  throw InputError(wrong);
+}
+
 double number(const std::string& option, const std::string& text, const Quantity& quantity) {
   const auto parsed = parse_quantity(text, quantity);
   if (const auto* problem = std::get_if<UnitProblem>(&parsed)) {
@@ -50,17 +59,20 @@ Aabb<3> view_of(const std::vector<std::string>& corners) {
     Eigen::Vector3d point;
     for (int i = 0; i < 3; ++i)
       point[i] = number("--view", corners[static_cast<std::size_t>(3 * corner + i)], quantity::length);
+    if (corner == 1 && (point.array() <= view.max().array()).any()) {
+      refuse("--view", fmt::format("{}", fmt::join(corners, " ")), "must be a low corner and a high one: x y z x y z");
+    }
     view.extend(point);
   }
   return view;
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& value, const std::string& rule) {
-  Problem wrong;
-  wrong.key = option;
-  wrong.value = value;
-  wrong.rule = rule;
-  throw InputError(wrong);
+// Where a picture can be written.
+void check_picture(const std::filesystem::path& png) {
+  if (png.extension() != ".png") refuse("--picture", png.string(), "must end in .png");
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::absolute(png).parent_path();
+  if (!std::filesystem::is_directory(folder, ignored)) refuse("--picture", png.string(), "must be in a folder that exists");
 }
 
 // Half as many pixels as a picture, since there are many of them.
@@ -112,6 +124,7 @@ int render_command(const RenderArguments& arguments) {
   if (!arguments.animation.empty()) return animate(arguments, picture);
   const std::filesystem::path png =
       arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
+  check_picture(png);
   output::render(picture, png);
   fmt::print("{}\n", png.string());
   return 0;

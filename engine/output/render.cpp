@@ -36,6 +36,11 @@ std::vector<SeriesEntry> frames_of(const Picture& picture) {
 SeriesEntry choose_frame(const Picture& picture) {
   const auto entries = frames_of(picture);
   if (!picture.time) return entries.back();
+  const double first = entries.front().time, last = entries.back().time;
+  if (*picture.time < first || *picture.time > last) {
+    throw RunError(fmt::format("{}: has frames from {:g} to {:g} s, none near {:g} s", picture.series.string(), first, last,
+                               *picture.time));
+  }
   return *std::min_element(entries.begin(), entries.end(), [&](const SeriesEntry& a, const SeriesEntry& b) {
     return std::abs(a.time - *picture.time) < std::abs(b.time - *picture.time);
   });

@@ -21,6 +21,18 @@ TEST(Ladder, VariesMeshAndToleranceUnlessTold) {
   EXPECT_DOUBLE_EQ(best.tolerance, 0.1 * slab.heat->time.tolerance);
 }
 
+TEST(Ladder, NeedsAnErrorToFindAndNoRunTwice) {
+  LadderOptions options;
+  options.mesh_factors = {1};
+  options.tolerances = {0.1};
+  EXPECT_EQ(ladder_of(scene("slab"), options).size(), 1u);  // it names its exact solution
+  EXPECT_THROW(ladder_of(scene("bars_and_joint"), options), InputError);
+  options.tolerances = {0.1, 1};
+  EXPECT_EQ(ladder_of(scene("bars_and_joint"), options).size(), 2u);
+  options.tolerances = {0.1, 0.1};
+  EXPECT_THROW(ladder_of(scene("slab"), options), InputError);
+}
+
 TEST(Ladder, LeavesTheMeshOfBlocksThatFallAlone) {
   for (const Rung& rung : ladder_of(scene("small_pile"), {})) EXPECT_DOUBLE_EQ(rung.mesh_factor, 1);
   LadderOptions options;

@@ -77,6 +77,14 @@ TEST_F(RenderTest, DrawsTheNearestFrameAndLeavesTheCallersDisplayAsItWas) {
   EXPECT_STREQ(std::getenv("DISPLAY"), ":none");
 }
 
+TEST_F(RenderTest, ATimeBeyondTheSeriesIsAnError) {
+  for (const double time : {-1.0, 1e9}) {
+    picture_.time = time;
+    EXPECT_THROW(render(picture_, png_), RunError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(png_));
+}
+
 TEST_F(RenderTest, BodiesGetAColourEach) {
   picture_.array = "body";
   render(picture_, png_);

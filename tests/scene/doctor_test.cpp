@@ -100,6 +100,14 @@ TEST(Doctor, FindsBlocksThatTouchNothing) {
               ElementsAre("1 of 1 blocks of body c2 touch nothing: no heat passes to or from them"));
 }
 
+TEST(Doctor, FindsOutputsByTheMillion) {
+  const std::string body = cubes({}, {"[0, 0, 0]"}) + "heat: {initial: 300, until: 1 h}\n";
+  EXPECT_THAT(
+      report_of(body + "output: {every: 1 ms}\n").suspicious,
+      ElementsAre(HasSubstr("output.every of 0.001 s makes 3.6e+06 output times"), HasSubstr("frames will be written")));
+  EXPECT_THAT(report_of(body + "output: {every: 10 ms, frames_every: 1 s}\n").suspicious, IsEmpty());
+}
+
 TEST(Doctor, FindsWhatIsNotUsed) {
   const std::string two =
       "materials: {a: {}, b: {}}\nbodies:\n  c: {box: {size: [1, 1, 1], centre: [0, 0, 0]}, material: a, mesh_size: "

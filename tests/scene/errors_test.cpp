@@ -22,6 +22,12 @@ TEST(SceneErrors, TheSmallSceneOfTheseTestsIsAccepted) {
   EXPECT_EQ(wrong_with(with_body(good_body)), "accepted");
 }
 
+TEST(SceneErrors, AProbeIsNotCalledLikeTheFirstColumn) {
+  const std::string heat = with_body(good_body) + "heat: {initial: 300, until: 1}\n";
+  EXPECT_THAT(wrong_with(heat + "output: {every: 1, probes: {time: [0, 0, 0]}}\n"),
+              testing::HasSubstr("output.probes.time is the first column of probes.csv (must be another name)"));
+}
+
 TEST(SceneErrors, AllAreListedInTheOrderOfTheFile) {
   EXPECT_EQ(wrong_with("materials:\n"
                        "  ore: {desnity: 2500, conductivity: -2.0}\n"

@@ -112,6 +112,9 @@ TEST(Command, DrawsARunWithoutAScreen) {
   const Outcome outcome = scree("render " + directory.string() + " --time \"1 h\" --cut \"0 m\"");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_GT(std::filesystem::file_size(directory / "heat.png"), 10000u);
+  for (const char* wrong : {"--view 1 1 1 0 0 0", "--picture picture.jpg", "--picture /nowhere/picture.png"}) {
+    EXPECT_EQ(scree("render " + directory.string() + " " + wrong).status, 2) << wrong;
+  }
 }
 
 }  // namespace

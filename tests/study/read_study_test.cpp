@@ -139,6 +139,14 @@ TEST(ReadStudy, RefusesFiguresThatTheScenesRunsCannotReport) {
   EXPECT_THAT(with("blocks, blocks"), HasSubstr("every column must have a name of its own"));
 }
 
+TEST(ReadStudy, RefusesWhatWouldCountDoubleOrNotAtAll) {
+  const std::string rest = "\nreport: [blocks]\n";
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h, 2 h, 60 min]}]" + rest),
+              HasSubstr("s.yaml:2:45: heat.until is 60 min (must not be given twice)"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nset: [heat.until=3 h]\nvary: [{key: heat.until, values: [1 h, 2 h]}]" + rest),
+              HasSubstr("heat.until is varied (must not be in set, too: heat.until=3 h)"));
+}
+
 TEST(ReadStudy, RefusesAStudyOfNothing) {
   EXPECT_THAT(wrong_with("scene: scene.yaml\nreport: [blocks]\n"), HasSubstr("must have vary, ensemble, or both"));
 }

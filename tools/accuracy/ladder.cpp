@@ -1,6 +1,7 @@
 #include "tools/accuracy/ladder.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -42,6 +43,23 @@ std::vector<Value> or_else(const std::vector<Value>& given, std::vector<Value> o
   return given.empty() ? otherwise : given;
 }
 
+// Errors are differences: to an exact solution, or to another run.
+void check_ladder(const Scene& scene, const std::vector<Rung>& ladder) {
+  std::set<std::vector<std::string>> different;
+  for (const Rung& rung : ladder) different.insert(overrides_of(scene, rung));
+  const bool exact = std::any_of(scene.probes.begin(), scene.probes.end(), [](const auto& probe) { return probe.exact; });
+  Problem problem;
+  problem.key = "the ladder of --mesh, --tolerance, --integrator and --contact";
+  problem.value = fmt::format("{} runs, {} of them different", ladder.size(), different.size());
+  if (different.size() < ladder.size()) {
+    problem.rule = "must not make a run twice";
+    throw InputError(problem);
+  }
+  if (exact || ladder.size() > 1) return;
+  problem.rule = "must be at least two runs, since the scene names no exact solution";
+  throw InputError(problem);
+}
+
 }  // namespace
 
 std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
@@ -65,6 +83,7 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
       }
     }
   }
+  check_ladder(scene, ladder);
   return ladder;
 }
 

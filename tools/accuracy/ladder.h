@@ -16,7 +16,8 @@ struct LadderOptions {
   std::vector<std::string> contact_models;
 };
 
-// Every combination, the coarsest first. Throws InputError for a mesh to be varied that makes the blocks or is given whole.
+// Every combination, the coarsest first. Throws InputError for a mesh to be varied that makes the blocks or is given
+// whole, for a run that would be made twice, and for a single one without an exact solution.
 std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options);
 
 // The run with the finest mesh and the smallest tolerance, by the implicit scheme if that is among them.

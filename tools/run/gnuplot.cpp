@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include <sys/wait.h>
+
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
@@ -12,10 +14,14 @@ void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& p
   std::error_code none_there;
   std::filesystem::remove(picture, none_there);
   std::FILE* gnuplot = popen("gnuplot", "w");
-  if (gnuplot == nullptr) throw RunError("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
-  std::fputs(commands.c_str(), gnuplot);
-  if (pclose(gnuplot) != 0 || !std::filesystem::exists(picture)) {
-    throw RunError(fmt::format("gnuplot could not draw {}. Run tools/setup, or apt-get install gnuplot-nox", picture.string()));
+  constexpr int no_such_command = 127;  // of a shell
+  if (gnuplot != nullptr) std::fputs(commands.c_str(), gnuplot);
+  const int status = gnuplot == nullptr ? -1 : pclose(gnuplot);
+  if (gnuplot == nullptr || (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command)) {
+    throw RunError("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
+  }
+  if (status != 0 || !std::filesystem::exists(picture)) {
+    throw RunError(fmt::format("gnuplot could not draw {}; what it said stands above", picture.string()));
   }
 }
 

@@ -30,6 +30,9 @@ std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& pro
       probe.reach = value.at("reach").number();
       if (const Checked* exact = value.find("exact")) probe.exact = read_function(*exact, problems);
     }
+    if (probe.name == "time") {
+      problems.push_back({entry.where, value.path, "the first column of probes.csv", "must be another name", ""});
+    }
     probes.push_back(std::move(probe));
   }
   return probes;

@@ -75,4 +75,18 @@ Sentences cold_bare_temperatures(const Scene& scene) {
   return sentences;
 }
 
+Sentences too_many_outputs(const Scene& scene) {
+  constexpr double many_rows = 1e6, many_frames = 1e5;
+  if (!scene.heat || scene.heat->time.steady) return {};
+  const double until = scene.heat->time.until, every = scene.heat->time.output_every;
+  Sentences sentences;
+  if (until / every > many_rows) {
+    sentences.push_back(fmt::format("output.every of {:g} s makes {:.2g} output times in {:g} s", every, until / every, until));
+  }
+  const double frames = until / (scene.frames_every > 0 ? scene.frames_every : every);
+  if (frames > many_frames)
+    sentences.push_back(fmt::format("{:.2g} frames will be written: raise output.frames_every", frames));
+  return sentences;
+}
+
 }  // namespace scree

@@ -19,6 +19,9 @@ Sentences free_without_motion(const Scene& scene);
 // A bare number of 25 for a temperature is 25 K.
 Sentences cold_bare_temperatures(const Scene& scene);
 
+// Output times by the million, frames by the hundred thousand.
+Sentences too_many_outputs(const Scene& scene);
+
 // Blocks of different bodies that lie in each other before anything moves.
 template <int dim>
 Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh);

@@ -93,7 +93,19 @@ class Reader {
     }
     const Checked* range = varied.find("range");
     if (range != nullptr && key != nullptr) read_range(*range, *key, factor);
+    refuse_repeated(factor);
     return factor;
+  }
+
+  // The same run twice would count double in every mean.
+  void refuse_repeated(const Factor& factor) {
+    std::set<std::string> texts;
+    std::set<double> numbers;
+    for (const Level& level : factor.levels) {
+      const bool fresh = level.number ? numbers.insert(*level.number).second : texts.insert(level.text).second;
+      if (!fresh)
+        problems_.push_back({level.where, factor.keys.front(), level.text, "must not be given twice", "Take one out"});
+    }
   }
 
   Level level(const Checked& value, const Key* key) {
@@ -180,13 +192,23 @@ class Reader {
       }
     };
     for (const Factor& factor : study.factors) {
-      for (const std::string& key : factor.keys) add(key, factor.where);
+      for (const std::string& key : factor.keys) {
+        add(key, factor.where);
+        refuse_set(study, key, factor.where);
+      }
     }
     if (study.ensemble) add(study.ensemble->name(), study.ensemble->where);
     for (const Report& report : study.reports) {
       add(report.column, report.where);
       if (report.column.find('/') == std::string::npos) continue;
       problems_.push_back({report.where, "a column", report.column, "a name must not hold a slash", ""});
+    }
+  }
+
+  void refuse_set(const Study& study, const std::string& key, const SourceLocation& where) {
+    for (const std::string& change : study.overrides) {
+      if (!change.starts_with(key + "=")) continue;
+      problems_.push_back({where, key, "varied", "must not be in set, too: " + change, "Take one of the two out"});
     }
   }
 
