@@ -10,7 +10,6 @@ namespace scree::contact {
 
 namespace {
 
-constexpr unsigned all_edges = 63;
 constexpr float flat_sine = 0.018F;  // a little more than an edge may be risen above in touch_edge
 
 using Direction = std::array<float, 3>;

@@ -36,7 +36,7 @@ class Tabulated : public Curve::Form {
 
 class Formula : public Curve::Form {
  public:
-  Formula(const std::string& text, UnitConverter unit, const ValueRule& rule)
+  Formula(const std::string& text, UnitConverter unit, ValueRule rule)
       : expression_(text, {"T"}), unit_(std::move(unit)), rule_(std::move(rule)), text_(text) {}
 
   [[nodiscard]] bool varies() const { return expression_.uses("T"); }

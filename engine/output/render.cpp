@@ -37,7 +37,8 @@ SeriesEntry choose_frame(const Picture& picture) {
   const auto entries = frames_of(picture);
   if (!picture.time) return entries.back();
   const double first = entries.front().time, last = entries.back().time;
-  if (*picture.time < first || *picture.time > last) {
+  const double interval = (last - first) / std::max(1.0, static_cast<double>(entries.size()) - 1);
+  if (*picture.time < first - interval || *picture.time > last + interval) {
     throw RunError(fmt::format("{}: has frames from {:g} to {:g} s, none near {:g} s", picture.series.string(), first, last,
                                *picture.time));
   }

@@ -27,11 +27,12 @@ struct Row {
   double applied = 0;
 };
 
-struct ContactRow {
+// Seven lines of memory; whom it concerns is asked first.
+struct alignas(64) ContactRow {
+  std::array<int, 2> bodies{-1, -1};  // -1: fixed
+  double coefficient = 0;
   Row normal;
   std::array<Row, 2> friction;
-  double coefficient = 0;
-  std::array<int, 2> bodies{-1, -1};  // -1: fixed
 };
 
 struct OverlapRow {

@@ -78,7 +78,7 @@ TEST_F(RenderTest, DrawsTheNearestFrameAndLeavesTheCallersDisplayAsItWas) {
 }
 
 TEST_F(RenderTest, ATimeBeyondTheSeriesIsAnError) {
-  for (const double time : {-1.0, 1e9}) {
+  for (const double time : {-1e9, 1e9}) {
     picture_.time = time;
     EXPECT_THROW(render(picture_, png_), RunError);
   }
