@@ -4,18 +4,6 @@
 
 namespace scree::thermal {
 
-namespace {
-
-// Adds what flowed by each name, and how much that is.
-void enter(const std::vector<double>& heat, std::vector<double>& entries, double& turnover) {
-  for (std::size_t i = 0; i < heat.size(); ++i) {
-    entries[i] += heat[i];
-    turnover += std::abs(heat[i]);
-  }
-}
-
-}  // namespace
-
 Bookkeeper::Bookkeeper(const HeatModel& model, Sums sums) : model_(model), drives_(model), balance_(model, sums) {
   if (model.shared_capacity) shares_.emplace(model);
 }
@@ -34,30 +22,33 @@ Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   return ledger;
 }
 
+// Heat that comes in here and leaves there under one name flows all the same: the turnover counts each node by itself.
 void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double length, Ledger& ledger) {
-  std::vector<double> held(model_.holds.size(), 0.0);
-  std::vector<double> applied(model_.loads.size(), 0.0);
-  std::vector<double> exchanged(model_.exchanges.size(), 0.0);
   const Eigen::VectorXd after = before + step.change;
+  Eigen::VectorXd held(static_cast<Eigen::Index>(model_.fixed_nodes.size()));
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-    held[model_.fixed_hold[i]] += balance_.stored_at(model_.fixed_nodes[i], before, after);
+    held[static_cast<Eigen::Index>(i)] = balance_.stored_at(model_.fixed_nodes[i], before, after);
   }
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
-    Eigen::VectorXd heating = balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
-    if (shares_) heating += shares_->shares(balance_, stage.temperature, drive);
-    for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-      held[model_.fixed_hold[i]] -= duration * heating[static_cast<Eigen::Index>(i)];
+    held -= duration * balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
+    if (shares_) held -= duration * shares_->shares(balance_, stage.temperature, drive);
+    for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+      ledger.by_applied[l] += duration * drive.by_load[l];
+      ledger.turnover += duration * drive.size_of_load[l];
     }
-    for (std::size_t l = 0; l < applied.size(); ++l) applied[l] += duration * drive.by_load[l];
-    for (std::size_t e = 0; e < exchanged.size(); ++e) {
-      exchanged[e] += duration * balance_.exchanged(e, stage.temperature, drive);
+    for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
+      const auto [heat, size] = balance_.exchanged(e, stage.temperature, drive);
+      ledger.by_surroundings[e] += duration * heat;
+      ledger.turnover += duration * size;
     }
   }
-  enter(held, ledger.by_boundary, ledger.turnover);
-  enter(applied, ledger.by_applied, ledger.turnover);
-  enter(exchanged, ledger.by_surroundings, ledger.turnover);
+  for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+    const double heat = held[static_cast<Eigen::Index>(i)];
+    ledger.by_boundary[model_.fixed_hold[i]] += heat;
+    ledger.turnover += std::abs(heat);
+  }
   ledger.stored = balance_.stored_in_all(model_.initial, after);
 }
 

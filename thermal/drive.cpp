@@ -74,6 +74,7 @@ bool varies_in_time(const HeatModel& model) {
 Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(model)) {
   constant_.load = Eigen::VectorXd::Zero(model.capacity.size());
   constant_.by_load.assign(model.loads.size(), 0.0);
+  constant_.size_of_load.assign(model.loads.size(), 0.0);
   constant_.fixed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
   constant_.exchanges.resize(model.exchanges.size());
   evaluate(Part::constant, constant_);
@@ -96,12 +97,26 @@ void Drives::evaluate(Part part, Drive& drive) const {
       const double heat = load.on.shares[i] * value(load.density, place, load.name, any_value);
       drive.load[load.on.nodes[i].value()] += heat;
       drive.by_load[l] += heat;
+      drive.size_of_load[l] += std::abs(heat);
     }
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
     if (varies(exchange) == varying) drive.exchanges[e] = rates(exchange, value);
   }
+}
+
+std::size_t Drives::bends_between(double begin, double end) const {
+  if (!vary_) return 0;
+  std::size_t most = 0;
+  const auto include = [&](const Function& function) { most = std::max(most, function.bends_between(begin, end)); };
+  for (const Hold& hold : model_.holds) include(hold.temperature);
+  for (const Load& load : model_.loads) include(load.density);
+  for (const Exchange& exchange : model_.exchanges) {
+    include(exchange.coefficient);
+    include(exchange.surroundings);
+  }
+  return most;
 }
 
 const Drive& Drives::at(double time) {

@@ -17,6 +17,7 @@ struct Drive {
   double time = 0;                       // [s]
   Eigen::VectorXd load;                  // into each node [W]
   std::vector<double> by_load;           // each load's total [W]
+  std::vector<double> size_of_load;      // the same without signs [W]
   Eigen::VectorXd fixed;                 // of the fixed nodes, in their order [K]
   std::vector<ExchangeRates> exchanges;  // in the model's order
 };
@@ -34,6 +35,9 @@ class Drives {
   const Drive& at(double time);
 
   [[nodiscard]] bool vary() const { return vary_; }
+
+  // The most bends that one table over time has between two times.
+  [[nodiscard]] std::size_t bends_between(double begin, double end) const;
 
  private:
   enum class Part { constant, varying };

@@ -130,14 +130,17 @@ Eigen::VectorXd HeatBalance::lost(const Eigen::VectorXd& change, const Linearise
   return heat;
 }
 
-double HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const {
+HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature,
+                                              const Drive& drive) const {
   const Exchange& with = model_.exchanges[exchange];
-  double heat = 0;
+  Exchanged all;
   Eigen::Index row = 0;
   for (const NodeId node : with.on.nodes) {
-    heat += exchanged_heat(with.law, drive.exchanges[exchange], row++, temperature[node.value()]);
+    const double heat = exchanged_heat(with.law, drive.exchanges[exchange], row++, temperature[node.value()]);
+    all.heat += heat;
+    all.size += std::abs(heat);
   }
-  return heat;
+  return all;
 }
 
 }  // namespace scree::thermal

@@ -51,8 +51,12 @@ class HeatBalance {
   // K, without U.
   [[nodiscard]] const FlowNetwork& flows() const { return flows_; }
 
-  // Through one exchange [W].
-  [[nodiscard]] double exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const;
+  // Through one exchange.
+  struct Exchanged {
+    double heat = 0;  // [W]
+    double size = 0;  // the same without signs [W]
+  };
+  [[nodiscard]] Exchanged exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const;
 
  private:
   const HeatModel& model_;

@@ -116,6 +116,10 @@ class HeatRun::Implementation {
     if (state_.next_step <= 0) state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error));
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
+      if (leaps(grid)) {
+        grid.refine();
+        continue;
+      }
       const double dt = grid.step();
       const Step step = scheme_.scheme->step(instant(grid.time()), dt);
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
@@ -133,6 +137,13 @@ class HeatRun::Implementation {
       }
       accept(step, dt, grid.time(), progress);
     }
+  }
+
+  // A step sees what drives it at its own times only. Whatever rises and falls again in a table has three bends at least: with
+  // two between a step's ends the step begins or ends in it.
+  [[nodiscard]] bool leaps(const StepGrid& grid) const {
+    constexpr std::size_t seen = 2;
+    return grid.level() < StepGrid::max_level && drives_.bends_between(grid.time(), grid.time() + grid.step()) > seen;
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.

@@ -113,15 +113,17 @@ class SteadySolver {
     ledger.by_boundary.assign(model_.holds.size(), 0.0);
     const Eigen::VectorXd heating = balance_.heating(temperature, drive_);
     for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-      ledger.by_boundary[model_.fixed_hold[i]] -= heating[model_.fixed_nodes[i].value()];
+      const double heat = heating[model_.fixed_nodes[i].value()];
+      ledger.by_boundary[model_.fixed_hold[i]] -= heat;
+      ledger.turnover += std::abs(heat);
     }
     ledger.by_applied = drive_.by_load;
     for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
-      ledger.by_surroundings.push_back(balance_.exchanged(e, temperature, drive_));
+      const auto [heat, size] = balance_.exchanged(e, temperature, drive_);
+      ledger.by_surroundings.push_back(heat);
+      ledger.turnover += size;
     }
-    for (const auto* entries : {&ledger.by_boundary, &ledger.by_applied, &ledger.by_surroundings}) {
-      for (const double flow : *entries) ledger.turnover += std::abs(flow);
-    }
+    for (const double size : drive_.size_of_load) ledger.turnover += size;
     return ledger;
   }
 

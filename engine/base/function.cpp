@@ -20,6 +20,7 @@ struct Function::Form {
   [[nodiscard]] virtual double value(const Eigen::Vector3d& place, double time) const = 0;
   [[nodiscard]] virtual bool varies(char argument) const = 0;  // x, y, z or t
   virtual void check_time(double begin, double end) const = 0;
+  [[nodiscard]] virtual std::size_t bends_between(double /*begin*/, double /*end*/) const { return 0; }
 
   ValueRule rule;
 };
@@ -66,6 +67,9 @@ class Tabulated : public Function::Form {
     return table_(argument);
   }
   [[nodiscard]] bool varies(char argument) const override { return argument == argument_; }
+  [[nodiscard]] std::size_t bends_between(double begin, double end) const override {
+    return argument_ == 't' ? table_.places_between(begin, end) : 0;
+  }
   void check_time(double begin, double end) const override {
     if (argument_ != 't' || (covers(begin) && covers(end))) return;
     refuse(fmt::format("too short for a run from {:g} to {:g} s", begin, end));
@@ -132,6 +136,10 @@ bool Function::varies_in_place() const {
 
 std::optional<double> Function::constant() const {
   return form_ ? std::nullopt : std::optional(constant_);
+}
+
+std::size_t Function::bends_between(double begin, double end) const {
+  return form_ ? form_->bends_between(begin, end) : 0;
 }
 
 void Function::check_time(double begin, double end) const {

@@ -41,4 +41,10 @@ double LinearTable::integral(double place) const {
   return integral_from_first(place) - integral_from_first(0);
 }
 
+std::size_t LinearTable::places_between(double begin, double end) const {
+  const auto first = std::upper_bound(places_.begin(), places_.end(), begin);
+  const auto last = std::lower_bound(first, places_.end(), end);
+  return static_cast<std::size_t>(last - first);
+}
+
 }  // namespace scree

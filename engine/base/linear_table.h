@@ -15,6 +15,9 @@ class LinearTable {
   // From place 0, exact.
   [[nodiscard]] double integral(double place) const;
 
+  // Places between the two, without them.
+  [[nodiscard]] std::size_t places_between(double begin, double end) const;
+
   [[nodiscard]] double first() const { return places_.front(); }
   [[nodiscard]] double last() const { return places_.back(); }
 

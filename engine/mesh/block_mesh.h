@@ -28,7 +28,7 @@ struct Block {
   IdRange<NodeId> nodes;
   IdRange<ElementId> elements;
   IdRange<CellId> cells = {};  // empty if the block has simplices only; else its elements are a conforming split of them
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // how it has turned since it was meshed
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // how it has turned from its body's shape
 };
 
 // A quadrilateral, wedge or hexahedron.

@@ -144,8 +144,11 @@ void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMes
     placed.surface = SurfaceId{first_surface + face.surface};
     mesh.surfaces.push_back(placed);
   }
-  mesh.blocks.push_back(
-      {body, {first_node, mesh.nodes.size()}, {first_element, mesh.elements.size()}, {first_cell, mesh.cells.size()}});
+  mesh.blocks.push_back({body,
+                         {first_node, mesh.nodes.size()},
+                         {first_element, mesh.elements.size()},
+                         {first_cell, mesh.cells.size()},
+                         pose.rotation});
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -33,6 +33,7 @@ constexpr std::array report_numbers{&SettleReport::simulated_time,
 // A packing as plain lists.
 struct Lists {
   std::vector<double> nodes, velocities, poses, report;         // rows of dim, 3, 7 (translation; rotation x y z w), 1
+  std::vector<double> orientations;                             // rows of 4 (x y z w), of the blocks before their poses
   std::vector<double> net_force;                                // one per block, of a settled packing
   std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 7, 2, 1
   std::vector<std::int64_t> cells;                              // rows of kind and 8 nodes, -1 for one it does not have
@@ -52,6 +53,7 @@ Lists pack(const Packing<dim>& packing) {
                                     block.elements.last(), block.cells.first(), block.cells.last()}) {
       lists.blocks.push_back(static_cast<std::int64_t>(entry));
     }
+    lists.orientations.insert(lists.orientations.end(), block.orientation.coeffs().begin(), block.orientation.coeffs().end());
   }
   for (const mesh::Cell& cell : packing.mesh.cells) {
     lists.cells.push_back(static_cast<std::int64_t>(cell.kind));
@@ -112,7 +114,8 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
     mesh.blocks.push_back({BodyId{at(lists.blocks, i)},
                            {at(lists.blocks, i + 1), at(lists.blocks, i + 2)},
                            {at(lists.blocks, i + 3), at(lists.blocks, i + 4)},
-                           {at(lists.blocks, i + 5), at(lists.blocks, i + 6)}});
+                           {at(lists.blocks, i + 5), at(lists.blocks, i + 6)},
+                           Eigen::Quaterniond(&lists.orientations.at(4 * (i / 7)))});
   }
   for (std::size_t i = 0; i + 9 <= lists.cells.size(); i += 9) {
     mesh::Cell cell{static_cast<mesh::CellKind>(lists.cells[i]), {}};
@@ -157,7 +160,10 @@ std::string digest(const std::string& key, const Lists& lists) {
   const auto add = [&hasher](const auto& list) {
     hasher.add(list.size()).add_bytes(list.data(), list.size() * sizeof list[0]);
   };
-  for (const auto* list : {&lists.nodes, &lists.velocities, &lists.poses, &lists.report, &lists.net_force}) add(*list);
+  for (const auto* list :
+       {&lists.nodes, &lists.velocities, &lists.poses, &lists.report, &lists.orientations, &lists.net_force}) {
+    add(*list);
+  }
   for (const auto* list :
        {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.cells, &lists.surfaces, &lists.surface_bodies}) {
     add(*list);
@@ -168,9 +174,9 @@ std::string digest(const std::string& key, const Lists& lists) {
 
 Lists read_lists(const H5::H5File& in) {
   Lists lists;
-  for (const auto& [name, list] :
-       {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities), std::pair("poses", &lists.poses),
-        std::pair("report", &lists.report), std::pair("net_force", &lists.net_force)}) {
+  for (const auto& [name, list] : {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities),
+                                   std::pair("poses", &lists.poses), std::pair("report", &lists.report),
+                                   std::pair("orientations", &lists.orientations), std::pair("net_force", &lists.net_force)}) {
     *list = doubles(in, name);
   }
   for (const auto& [name, list] :
@@ -227,6 +233,7 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put("bodies", lists.bodies, 2);
   image.put("velocities", lists.velocities, 3);
   image.put("poses", lists.poses, 7);
+  image.put("orientations", lists.orientations, 4);
   image.put("report", lists.report);
   image.put("net_force", lists.net_force);
   image.put("outcome", lists.outcome);

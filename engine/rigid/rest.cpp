@@ -43,7 +43,7 @@ Motion observe_motion(const World& world, const Damping& damping, double time_st
   const double contact = world.mean_contact_force(time_step);
   const double net = damping.mean_net_force(world);
   // Without any contact nothing bears the blocks: all of the force is unbalanced.
-  motion.unbalanced = contact > 0 ? net / contact : (net > 0 ? 1.0 : 0.0);
+  motion.unbalanced = contact > 0 ? net / contact : (net > 0 || motion.max_speed > 0 ? 1.0 : 0.0);
   return motion;
 }
 

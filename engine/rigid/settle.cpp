@@ -129,7 +129,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   report.mean_edge = mesh::mean_edge(mesh_);
   RestWatch watch(world_, options_, report.mean_edge, time());
   double viscous = options_.viscous_damping;
-  Motion motion;
+  Motion motion = observe_motion(world_, damping_, options_.step);
   while (!report.at_rest && time() + options_.step <= options_.limit * (1 + 1e-9)) {
     motion = advance(viscous);
     if (progress) progress(time(), motion.rms_speed);

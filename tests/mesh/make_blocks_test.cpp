@@ -180,6 +180,8 @@ TEST(MakeBlocks, ACopyIsTheShapeMovedByItsPose) {
   body.arrangement = AtPoses{{pose}};
   const auto moved = make_blocks<3>({body});
   for (const NodeId n : reference.nodes.ids()) EXPECT_EQ(moved.nodes[n], pose * reference.nodes[n]);
+  // Its principal axes turn with it.
+  EXPECT_EQ(moved.blocks[BlockId{0}].orientation.coeffs(), pose.rotation.coeffs());
 }
 
 TEST(MakeBlocks, ACylinderInTwoDimensionsIsRefused) {

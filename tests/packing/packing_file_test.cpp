@@ -36,8 +36,11 @@ Packing<dim> awkward_packing() {
     }
     packing.mesh.elements.push_back(element);
     const std::size_t nodes = dim + 1;
-    packing.mesh.blocks.push_back(
-        {BodyId{block}, {nodes * block, nodes * (block + 1)}, {block, block + 1}, {block, block + 1}});
+    packing.mesh.blocks.push_back({BodyId{block},
+                                   {nodes * block, nodes * (block + 1)},
+                                   {block, block + 1},
+                                   {block, block + 1},
+                                   Eigen::Quaterniond(0.4, -0.1, 0.2, 1.0 / 3 + static_cast<double>(block)).normalized()});
     mesh::Cell cell{dim == 2 ? mesh::CellKind::quadrilateral : mesh::CellKind::wedge, {}};
     for (std::size_t i = 0; i < mesh::corner_count(cell.kind); ++i) cell.nodes[i] = NodeId{block + i};
     packing.mesh.cells.push_back(cell);
@@ -71,6 +74,7 @@ void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
     EXPECT_EQ(a.mesh.blocks[block].nodes, b.mesh.blocks[block].nodes);
     EXPECT_EQ(a.mesh.blocks[block].elements, b.mesh.blocks[block].elements);
     EXPECT_EQ(a.mesh.blocks[block].cells, b.mesh.blocks[block].cells);
+    EXPECT_EQ(a.mesh.blocks[block].orientation.coeffs(), b.mesh.blocks[block].orientation.coeffs());
     EXPECT_EQ(a.poses[block].translation, b.poses[block].translation);
     EXPECT_EQ(a.poses[block].rotation.coeffs(), b.poses[block].rotation.coeffs());
   }

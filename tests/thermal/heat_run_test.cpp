@@ -251,6 +251,41 @@ TEST(HeatRun, StepsDoNotDependOnHowOftenTheRunIsStopped) {
   EXPECT_EQ(often.state().temperature, once.state().temperature);
 }
 
+// 1e7 W/m3 for 10 s of an hour come in, whatever the output interval leaps over.
+TEST(HeatRun, APulseInATableIsNotLeaptOver) {
+  const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
+  for (const double ramp : {5.0, 1e-3}) {
+    ValueRule rule;
+    const auto pulse =
+        Function::from_table(LinearTable({0, 2000 - ramp, 2000, 2010 - ramp, 2010, 3600}, {0, 0, 1e7, 1e7, 0, 0}), rule);
+    HeatOptions options = options_for(mesh, 300);
+    options.sources.push_back({test::on(BodyId{0}, between_x(0, 1)), pulse, "pulse", {}});
+    const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
+    HeatRun run(model, times(3600, 3600, 0.1));
+    run.advance_to(3600);
+    const double heat = 1e8;  // of 1 m2, one metre deep
+    EXPECT_NEAR(run.state().ledger.by_applied[0] / heat, 1, 0.01) << ramp;
+    EXPECT_LT(run.state().steps, 200);
+  }
+}
+
+// What comes in at one end leaves at the other, under one name.
+TEST(HeatRun, HeatThatComesInAndLeavesUnderOneNameIsTurnedOverAllTheSame) {
+  const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
+  const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
+  HeatOptions options = options_for(mesh, 300);
+  Boundary air;
+  air.name = "air";
+  air.region = test::on(BodyId{0}, between_x(0, 1));
+  air.condition = Convection{10.0, Function::from_expression("300 + 100*(x - 0.5)", unit, ValueRule{})};
+  options.boundaries.push_back(air);
+  const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
+  HeatRun run(model, times(36000, 36000, 0.1));
+  run.advance_to(36000);
+  EXPECT_GT(run.state().ledger.turnover, 1e4);
+  EXPECT_LT(run.state().ledger.relative_residual(), 1e-10);
+}
+
 TEST(HeatRun, NothingHappensAtASteadyState) {
   const HeatModel model = rubble_model<2>(
       10, [](HeatOptions& options) { options.boundaries.push_back(test::hold(BodyId{0}, 0, 298.15, "as cold as the rest")); });

@@ -40,6 +40,7 @@ void add_mesh(Hasher& hash, const mesh::BlockMesh<dim>& mesh) {
   }
   for (const mesh::Block& block : mesh.blocks) {
     hash.add(block.body.value()).add(block.nodes.size()).add(block.elements.size());
+    hash.add_bytes(block.orientation.coeffs().data(), sizeof(double) * 4);
   }
   for (const mesh::Body& body : mesh.bodies) {
     hash.add(body.name).add(body.material.value()).add(body.fixed);

@@ -242,6 +242,12 @@ std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& s
     reasons.push_back(
         fmt::format("the time error reached {:.3g} K, above heat.tolerance of {:.3g} K", state.time_error, tolerance));
   }
+  if (state.reached.least < 0) {
+    reasons.push_back(
+        fmt::format("temperatures fell to {:.6g} K, below 0 K: more heat was taken away than there was. Look at "
+                    "negative fluxes and flows, and at overshoot on coarse meshes",
+                    state.reached.least));
+  }
   const double residual = state.ledger.relative_residual();
   if (!(residual <= largest_ledger_residual)) {
     reasons.push_back(fmt::format("the energy ledger does not close: {:.2e} of the heat that flowed is missing (limit {:.0e})",

@@ -29,6 +29,10 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   if (drag.sound && settle.at("step").sound && options.viscous_damping * options.step > 1) {
     problems.push_back(drag.problem(drag.text, fmt::format("must be at most {:g} 1/s, one over the step", 1 / options.step)));
   }
+  const Checked& step = settle.at("step");
+  if (step.sound && settle.at("limit").sound && options.step > options.limit) {
+    problems.push_back(step.problem(step.text, fmt::format("must be at most settle.limit, {:g} s", options.limit)));
+  }
   const Checked& gravity = settle.at("gravity");
   if (gravity.sound && options.gravity.norm() == 0) {
     problems.push_back(
