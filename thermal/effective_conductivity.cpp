@@ -1,5 +1,6 @@
 #include "thermal/effective_conductivity.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -36,6 +37,7 @@ class Sample {
                                "must have constant properties", "Give the values at the temperature of interest"));
     }
     rows_.resize(static_cast<std::size_t>(model.capacity.size()));
+    group_.resize(rows_.size());
     for (const NodeId node : mesh.nodes.ids()) rows_[model.rows[node].index()] = node;
   }
 
@@ -77,15 +79,16 @@ class Sample {
         if (entry.value() != 0) groups.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
       }
     }
+    for (std::size_t row = 0; row < rows_.size(); ++row) group_[row] = groups.root(row);
     std::vector<char> grounded(rows_.size(), 0);
     std::vector<char> fixed(rows_.size(), 0);
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       fixed[row] = held(rows_[row]) ? 1 : 0;
-      if (fixed[row] != 0) grounded[groups.root(row)] = 1;
+      if (fixed[row] != 0) grounded[group_[row]] = 1;
     }
     model_.fixed_nodes.clear();
     for (std::size_t row = 0; row < rows_.size(); ++row) {
-      char& has_ground = grounded[groups.root(row)];
+      char& has_ground = grounded[group_[row]];
       if (fixed[row] == 0 && has_ground != 0) continue;
       has_ground = 1;
       model_.fixed_nodes.emplace_back(row);
@@ -170,6 +173,15 @@ class Sample {
     return found;
   }
 
+  // Whether every group of blocks that are joined gives off what it takes in. Where one does not, no uniform flux passes.
+  [[nodiscard]] bool passes_through(const Eigen::VectorXd& load) const {
+    std::vector<double> left(rows_.size(), 0.0);
+    for (std::size_t row = 0; row < rows_.size(); ++row) left[group_[row]] += load[static_cast<Eigen::Index>(row)];
+    const double largest =
+        std::abs(*std::max_element(left.begin(), left.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    return largest <= 1e-9 * load.lpNorm<1>();
+  }
+
   [[nodiscard]] std::optional<Tensor> uniform_flux() {
     const auto faces = mesh::boundary_faces(mesh_);
     const auto found = sides(faces);
@@ -182,6 +194,7 @@ class Sample {
         if (side.axis != axis) continue;
         for (const NodeId node : faces[side.face].nodes) load[model_.rows[node].value()] -= side.sign * side.area / dim;
       }
+      if (!passes_through(load)) return std::nullopt;
       const Eigen::VectorXd temperature = solve(Eigen::VectorXd::Zero(load.size()), load);
       for (const Side& side : *found) {
         double mean = 0;
@@ -198,7 +211,8 @@ class Sample {
   Aabb<dim> window_;
   double rounding_;  // [m]
   std::vector<ElementId> inside_;
-  std::vector<NodeId> rows_;  // a node of each row: tied ones share one (tied_nodes.h)
+  std::vector<NodeId> rows_;        // a node of each row: tied ones share one (tied_nodes.h)
+  std::vector<std::size_t> group_;  // of each row: the row that stands for all it is joined with
   std::optional<FreeNodes> free_;
   std::optional<HeatSolver> solver_;
 };

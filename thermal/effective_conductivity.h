@@ -16,7 +16,8 @@ template <int dim>
 struct EffectiveConductivity {
   using Tensor = Eigen::Matrix<double, dim, dim>;
   Tensor upper = Tensor::Zero();  // temperature linear on and outside the window's boundary [W/m/K]
-  // Uniform flux through the window's sides [W/m/K]; nothing unless faces of blocks cover all of them.
+  // Uniform flux through the window's sides [W/m/K]; nothing unless faces of blocks cover all of them, nor where blocks on two
+  // sides are not joined.
   std::optional<Tensor> lower;
   Point<dim> along = Point<dim>::Zero();  // per axis, between two plates [W/m/K]
   double solid_fraction = 0;              // of the window's volume [-]
