@@ -218,14 +218,17 @@ class Chooser {
     const Exchange& exchange = model_.exchanges[e];
     const ExchangeRates& rates = start_.exchanges[e];
     Patch patch;
+    PatchMoments<dim> by_area;  // what does not conduct yet may do so later
     for (const Entry& entry : entries) {
       const NodeId node = exchange.on.nodes[entry.item];
       const double hotter = std::max(model_.initial[node.value()], rates.surroundings[entry.item]);
       const double conductance = exchange_slope(exchange.law, rates, entry.item, hotter);
       patch.moments.add(mesh_.nodes[node] - centroid, conductance);
+      by_area.add(mesh_.nodes[node] - centroid, exchange.on.shares[entry.item]);
       patch.conductance += conductance;
       patch.area += exchange.on.shares[entry.item];
     }
+    if (patch.conductance == 0) patch.moments = by_area;
     return patch;
   }
 

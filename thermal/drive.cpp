@@ -73,6 +73,7 @@ bool varies_in_time(const HeatModel& model) {
 
 Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(model)) {
   constant_.load = Eigen::VectorXd::Zero(model.capacity.size());
+  constant_.load_sizes = Eigen::VectorXd::Zero(model.capacity.size());
   constant_.by_load.assign(model.loads.size(), 0.0);
   constant_.size_of_load.assign(model.loads.size(), 0.0);
   constant_.fixed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
@@ -96,6 +97,7 @@ void Drives::evaluate(Part part, Drive& drive) const {
       const Eigen::Vector3d place = load.on.places.col(static_cast<Eigen::Index>(i));
       const double heat = load.on.shares[i] * value(load.density, place, load.name, any_value);
       drive.load[load.on.nodes[i].value()] += heat;
+      drive.load_sizes[load.on.nodes[i].value()] += std::abs(heat);
       drive.by_load[l] += heat;
       drive.size_of_load[l] += std::abs(heat);
     }

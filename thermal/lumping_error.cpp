@@ -104,7 +104,9 @@ std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd
   std::vector<Flows> result(blocks_.size());
   for_each_patch(temperature, drive, [&](const Patch& patch) { result[patch.position].add(patch.heat, patch.resists); });
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    result[i].add(drive.load[blocks_[i].row.value()], blocks_[i].load);
+    const double net = drive.load[blocks_[i].row.value()], size = drive.load_sizes[blocks_[i].row.value()];
+    result[i].add(0.5 * (size + net), blocks_[i].load);
+    result[i].add(-0.5 * (size - net), blocks_[i].load);
   }
   return result;
 }

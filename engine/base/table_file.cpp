@@ -22,6 +22,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets begin with it
+
 struct Cell {
   std::string_view text;
   int column = 1;
@@ -36,6 +38,7 @@ class Reader {
     std::string line;
     while (std::getline(stream, line)) {
       ++line_;
+      if (line_ == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
       const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
       if (text.empty()) continue;
       const std::vector<Cell> cells = split(std::string_view(line).substr(0, line.find('#')));

@@ -117,6 +117,10 @@ TEST(Function, SeveralThreadsGetTheirOwnValues) {
   EXPECT_THAT(wrong, testing::Each(0));
 }
 
+TEST(Function, ATableMayBeginWithTheByteOrderMarkOfASpreadsheet) {
+  EXPECT_NEAR(table("\xEF\xBB\xBFtime [s], temperature [K]\n0, 300\n2, 400\n", quantity::temperature)(nowhere, 1), 350, 1e-9);
+}
+
 TEST(Function, ATableIsLinearInBetweenInItsUnits) {
   const Function function =
       table("# an oven\ntime [h], temperature [degC]\n0, 20\n\n 1 , 120 # hot\n3,20\n", quantity::temperature);

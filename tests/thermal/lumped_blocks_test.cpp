@@ -181,6 +181,40 @@ TEST(LumpedBlocks, ResumeToTheBitWithTheirErrorEstimate) {
   EXPECT_EQ(second.state().lumping.largest, whole.state().lumping.largest);
 }
 
+double largest_difference(const Eigen::VectorXd& temperature, double from) {
+  return (temperature.array() - from).abs().maxCoeff();
+}
+
+// q L/(2 k) at either end.
+TEST(LumpedBlocks, KnowTheirErrorWhereHeatComesInAtOneEndAndLeavesAtTheOther) {
+  auto row = row_of_cubes<2>(1, 4);
+  for (const double flux : {1000.0, -1000.0}) {
+    Boundary boundary;
+    boundary.region = test::on(BodyId{0}, test::between_x(flux > 0 ? 0 : test::side, flux > 0 ? 0 : test::side));
+    boundary.condition = HeatFlux{flux};
+    boundary.name = flux > 0 ? "in" : "out";
+    row.options.boundaries.push_back(boundary);
+  }
+  const double real = largest_difference(test::heated(row.model(), 36000).temperature, 400);
+  EXPECT_GT(real, 10);
+  row.options.blocks.model = BlockModel::lumped;
+  const double stated = test::heated(row.model(), 36000).lumping.largest;
+  EXPECT_GT(stated, real);
+  EXPECT_LT(stated, 4 * real);
+}
+
+TEST(LumpedBlocks, KnowTheirErrorWhereConvectionBeginsLater) {
+  auto row = row_of_cubes<2>(1, 4);
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m2/K", quantity::heat_transfer));
+  Boundary air = test::convection(BodyId{0}, 0, 300.0);
+  std::get<Convection>(air.condition).coefficient = Function::from_expression("t/36", unit, ValueRule{});
+  row.options.boundaries.push_back(air);
+  const auto meshed = test::heated(row.model());
+  const double real = 0.5 * (meshed.temperature.maxCoeff() - meshed.temperature.minCoeff());
+  row.options.blocks.model = BlockModel::lumped;
+  EXPECT_GT(test::heated(row.model()).lumping.largest, real);
+}
+
 TEST(LumpedBlocks, MakeAMeshedStateUnfit) {
   auto row = row_of_cubes<2>(1, 1);
   TimeOptions options;

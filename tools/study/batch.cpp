@@ -17,6 +17,13 @@ std::string quoted(const std::string& text) {
   return safe;
 }
 
+// A file's name in a line of #SBATCH: quoted, and a percent sign is doubled where it stands for itself.
+std::string in_sbatch(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '%' ? std::string("%%") : std::string(1, c);
+  return safe;
+}
+
 std::string command_of(const Batch& batch, const std::string& what) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   return fmt::format("{} study {} --out {} {}", quoted(program), quoted(std::filesystem::absolute(batch.study).string()),
@@ -26,7 +33,7 @@ std::string command_of(const Batch& batch, const std::string& what) {
 }  // namespace
 
 std::string slurm_script(const Batch& batch) {
-  const std::string log = (std::filesystem::absolute(batch.directory) / "slurm-%a.log").string();
+  const std::string log = fmt::format("\"{}/slurm-%a.log\"", in_sbatch(std::filesystem::absolute(batch.directory).string()));
   return fmt::format(
       "#!/bin/sh\n"
       "# Runs {count} runs of a study as a job array. Submit it with its limits, and gather the results when it has ended:\n"

@@ -1,6 +1,7 @@
 #include "tools/study/study_command.h"
 
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -155,7 +156,8 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "progress for a program: one JSON object a line on standard output")
       ->excludes(quiet);
   auto* what = command.add_option_group("instead of making all runs here");
-  what->add_option("--task", arguments.task, "make only the run of this number, counted from 1")->check(CLI::PositiveNumber);
+  what->add_option("--task", arguments.task, "make only the run of this number, counted from 1")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   what->add_flag("--gather", arguments.gather, "make no run, only the table of those that there are");
   what->add_flag("--list", arguments.list, "make no run, only say what they are");
   what->add_option("--slurm", arguments.slurm, "write a job array for Slurm whose tasks are the runs");
