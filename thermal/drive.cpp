@@ -75,7 +75,6 @@ Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(mod
   constant_.load = Eigen::VectorXd::Zero(model.capacity.size());
   constant_.load_sizes = Eigen::VectorXd::Zero(model.capacity.size());
   constant_.by_load.assign(model.loads.size(), 0.0);
-  constant_.size_of_load.assign(model.loads.size(), 0.0);
   constant_.fixed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
   constant_.exchanges.resize(model.exchanges.size());
   evaluate(Part::constant, constant_);
@@ -99,7 +98,6 @@ void Drives::evaluate(Part part, Drive& drive) const {
       drive.load[load.on.nodes[i].value()] += heat;
       drive.load_sizes[load.on.nodes[i].value()] += std::abs(heat);
       drive.by_load[l] += heat;
-      drive.size_of_load[l] += std::abs(heat);
     }
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {

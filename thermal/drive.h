@@ -18,7 +18,6 @@ struct Drive {
   Eigen::VectorXd load;                  // into each node [W]
   Eigen::VectorXd load_sizes;            // the same without signs: of a lumped block, heat in here and out there [W]
   std::vector<double> by_load;           // each load's total [W]
-  std::vector<double> size_of_load;      // the same without signs [W]
   Eigen::VectorXd fixed;                 // of the fixed nodes, in their order [K]
   std::vector<ExchangeRates> exchanges;  // in the model's order
 };

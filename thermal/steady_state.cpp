@@ -123,7 +123,7 @@ class SteadySolver {
       ledger.by_surroundings.push_back(heat);
       ledger.turnover += size;
     }
-    for (const double size : drive_.size_of_load) ledger.turnover += size;
+    ledger.turnover += drive_.load_sizes.sum();
     return ledger;
   }
 

@@ -13,13 +13,13 @@ namespace scree::run {
 void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& picture) {
   std::error_code none_there;
   std::filesystem::remove(picture, none_there);
-  std::FILE* gnuplot = popen("gnuplot", "w");
   constexpr int no_such_command = 127;  // of a shell
-  if (gnuplot != nullptr) std::fputs(commands.c_str(), gnuplot);
-  const int status = gnuplot == nullptr ? -1 : pclose(gnuplot);
-  if (gnuplot == nullptr || (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command)) {
-    throw RunError("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
-  }
+  const RunError not_started("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
+  std::FILE* gnuplot = popen("gnuplot", "w");
+  if (gnuplot == nullptr) throw not_started;
+  std::fputs(commands.c_str(), gnuplot);
+  const int status = pclose(gnuplot);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command) throw not_started;
   if (status != 0 || !std::filesystem::exists(picture)) {
     throw RunError(fmt::format("gnuplot could not draw {}; what it said stands above", picture.string()));
   }

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include "engine/output/stored_field.h"
 #include "thermal/effective_conductivity.h"
+#include "thermal/problems.h"
 #include "tools/run/heated_pile.h"
 
 namespace scree::run {
@@ -25,13 +25,8 @@ thermal::MovingBodies moving_bodies(const Scene& scene) {
 void check_is_there(const output::StoredField& stored) {
   std::error_code ignored;
   if (std::filesystem::exists(stored.from, ignored)) return;
-  Problem problem;
-  problem.where = stored.where;
-  problem.key = "heat.initial.from";
-  problem.value = stored.from.string();
-  problem.rule = "must be there";
-  problem.suggestion = "Name the output directory of a run with heat, a .pvd or a .vtu";
-  throw InputError(std::move(problem));
+  throw InputError(thermal::problem("heat.initial.from", stored.from.string(), "must be there",
+                                    "Name the output directory of a run with heat, a .pvd or a .vtu"));
 }
 
 // The temperatures to start from, if they are those of an earlier run; any while blocks move.
