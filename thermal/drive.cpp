@@ -106,19 +106,6 @@ void Drives::evaluate(Part part, Drive& drive) const {
   }
 }
 
-std::size_t Drives::bends_between(double begin, double end) const {
-  if (!vary_) return 0;
-  std::size_t most = 0;
-  const auto include = [&](const Function& function) { most = std::max(most, function.bends_between(begin, end)); };
-  for (const Hold& hold : model_.holds) include(hold.temperature);
-  for (const Load& load : model_.loads) include(load.density);
-  for (const Exchange& exchange : model_.exchanges) {
-    include(exchange.coefficient);
-    include(exchange.surroundings);
-  }
-  return most;
-}
-
 const Drive& Drives::at(double time) {
   if (!vary_) return constant_;
   const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const Drive& drive) { return drive.time == time; });

@@ -36,9 +36,6 @@ class Drives {
 
   [[nodiscard]] bool vary() const { return vary_; }
 
-  // The most bends that one table over time has between two times.
-  [[nodiscard]] std::size_t bends_between(double begin, double end) const;
-
  private:
   enum class Part { constant, varying };
   void evaluate(Part part, Drive& drive) const;

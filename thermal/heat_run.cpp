@@ -11,6 +11,7 @@
 #include "thermal/problems.h"
 #include "thermal/stable_step.h"
 #include "thermal/step_grid.h"
+#include "thermal/time_bends.h"
 
 namespace scree::thermal {
 
@@ -115,8 +116,9 @@ class HeatRun::Implementation {
   void chosen_steps(double begin, double length, const std::function<void(double)>& progress) {
     if (state_.next_step <= 0) state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error));
     StepGrid grid(begin, length, state_.next_step);
+    const TimeBends bends(model_, begin, begin + length);
     while (!grid.done()) {
-      if (leaps(grid)) {
+      if (leaps(grid, bends)) {
         grid.refine();
         continue;
       }
@@ -139,11 +141,11 @@ class HeatRun::Implementation {
     }
   }
 
-  // A step sees what drives it at its own times only. Whatever rises and falls again in a table has three bends at least: with
-  // two between a step's ends the step begins or ends in it.
-  [[nodiscard]] bool leaps(const StepGrid& grid) const {
+  // A step sees what drives it at its own times only. Whatever rises and falls again has three bends at least: with two between
+  // a step's ends the step begins or ends in it.
+  static bool leaps(const StepGrid& grid, const TimeBends& bends) {
     constexpr std::size_t seen = 2;
-    return grid.level() < StepGrid::max_level && drives_.bends_between(grid.time(), grid.time() + grid.step()) > seen;
+    return grid.level() < StepGrid::max_level && bends.most_between(grid.time(), grid.time() + grid.step()) > seen;
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,14 @@ int dispatch(CLI::App& app, const Arguments& arguments) {
   return 0;
 }
 
+// What was printed must have arrived: a full disk often shows only here.
+void flush_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
+    throw scree::RunError("standard output could not be written");
+  }
+}
+
 void declare_running(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "run a scene");
   add_scene(*run, arguments);
@@ -193,7 +202,9 @@ int main(int argc, char** argv) {
   declare(app, arguments);
   try {
     app.parse(argc, argv);
-    return dispatch(app, arguments);
+    const int status = dispatch(app, arguments);
+    flush_output();
+    return status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const scree::InputError& error) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/expression.h"
 #include "engine/base/nearest.h"
 
 namespace scree {
@@ -42,10 +43,27 @@ std::string without_sign(const InputValue& value, const Key& key, double number)
   return fmt::format("Did you mean {}?", value.text.substr(1));
 }
 
+// A formula that stands where a number is looked for: it calculates with what the key depends on.
+bool looks_like_formula(const std::string& text, const Key& key) {
+  if (key.depends == Depends::on_nothing) return false;
+  const std::vector<std::string> arguments =
+      key.depends == Depends::on_temperature ? std::vector<std::string>{"T"} : std::vector<std::string>{"x", "y", "z", "t"};
+  try {
+    const Expression formula(text, arguments);
+    return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& name) { return formula.uses(name); });
+  } catch (const ExpressionError&) {
+    return false;
+  }
+}
+
 double quantity_value(const InputValue& value, const Place& place) {
   const auto parsed = parse_quantity(value.text, place.key.quantity);
   if (const auto* problem = std::get_if<UnitProblem>(&parsed)) {
-    place.refuse(value, problem->reason, problem->suggestion);
+    if (looks_like_formula(value.text, place.key)) {
+      place.refuse(value, "", fmt::format("Write a formula as {{expression: \"{}\"}}", value.text));
+    } else {
+      place.refuse(value, problem->reason, problem->suggestion);
+    }
     return 0;
   }
   const double number = std::get<double>(parsed);

@@ -48,15 +48,22 @@ class Formula : public Curve::Form {
   }
 
   [[nodiscard]] double integral(double temperature) const override {
-    const double whole = std::clamp(std::floor(temperature), 0.0, static_cast<double>(last_kelvin));
-    const double result = sum_to(static_cast<std::size_t>(whole)) + gauss(whole, temperature);
+    std::call_once(cut_, [&] { cut(); });
+    const auto above = std::upper_bound(cuts_.begin(), cuts_.end(), std::max(temperature, 0.0));
+    const auto piece = static_cast<std::size_t>(above - cuts_.begin()) - 1;
+    const double result = sums_[piece] + gauss(cuts_[piece], temperature);
     if (!std::isfinite(result)) refuse(result, temperature);
     return result;
   }
 
  private:
   // Sums are kept up to here; the way from here to a higher temperature is one interval of Gauss's rule.
-  static constexpr std::size_t last_kelvin = 5000;
+  static constexpr int last_kelvin = 5000;
+  // How often a kelvin may be halved, and into how many pieces in all: a formula that jumps needs as many as halvings.
+  static constexpr int most_halvings = 40;
+  static constexpr std::size_t most_pieces = 2000;
+  // Where the rule over a whole and over its halves differ by more than this share, the formula is not smooth there.
+  static constexpr double smooth = 1e-12;
 
   [[nodiscard]] double raw(double temperature) const { return unit_(expression_(std::array{temperature})); }
 
@@ -74,15 +81,29 @@ class Formula : public Curve::Form {
     return sum * half;
   }
 
-  [[nodiscard]] double sum_to(std::size_t kelvin) const {
-    std::call_once(summed_, [&] {
-      sums_.reserve(last_kelvin + 1);
-      sums_.push_back(0);
-      for (std::size_t k = 0; k < last_kelvin; ++k) {
-        sums_.push_back(sums_.back() + gauss(static_cast<double>(k), static_cast<double>(k + 1)));
-      }
-    });
-    return sums_[kelvin];
+  void cut() const {
+    cuts_.push_back(0);
+    sums_.push_back(0);
+    for (int k = 0; k < last_kelvin; ++k) {
+      room_ = most_pieces;
+      append(k, k + 1, gauss(k, k + 1), most_halvings);
+    }
+  }
+
+  // Pieces on each of which Gauss's rule is exact, so that the integral rises wherever the formula is positive.
+  void append(double from, double to, double whole, int halvings) const {
+    const double middle = 0.5 * (from + to);
+    const double left = gauss(from, middle);
+    const double right = gauss(middle, to);
+    const bool rough = std::abs(left + right - whole) > smooth * (std::abs(left) + std::abs(right));
+    if (rough && halvings > 0 && room_ > 0) {
+      --room_;
+      append(from, middle, left, halvings - 1);
+      append(middle, to, right, halvings - 1);
+      return;
+    }
+    cuts_.push_back(to);
+    sums_.push_back(sums_.back() + left + right);
   }
 
   [[noreturn]] void refuse(double value, double temperature) const {
@@ -94,8 +115,10 @@ class Formula : public Curve::Form {
   UnitConverter unit_;
   ValueRule rule_;
   std::string text_;
-  mutable std::once_flag summed_;
-  mutable std::vector<double> sums_;  // integral from 0 K to each kelvin
+  mutable std::once_flag cut_;
+  mutable std::vector<double> cuts_;  // where pieces begin and end [K]
+  mutable std::vector<double> sums_;  // integral from 0 K to each
+  mutable std::size_t room_ = 0;      // pieces that a kelvin may still be cut into
 };
 
 }  // namespace

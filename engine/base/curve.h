@@ -31,8 +31,8 @@ class Curve {
   // At a temperature [K]. Throws InputError that names the temperature at which a formula breaks the rule.
   double operator()(double temperature) const;
 
-  // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, exact to rounding for
-  // polynomials to the ninth degree.
+  // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, which is halved where
+  // the formula bends or jumps: exact to rounding for polynomials to the ninth degree, rising wherever the formula is positive.
   [[nodiscard]] double integral(double temperature) const;
 
   [[nodiscard]] std::optional<double> constant() const;

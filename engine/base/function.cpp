@@ -20,7 +20,7 @@ struct Function::Form {
   [[nodiscard]] virtual double value(const Eigen::Vector3d& place, double time) const = 0;
   [[nodiscard]] virtual bool varies(char argument) const = 0;  // x, y, z or t
   virtual void check_time(double begin, double end) const = 0;
-  [[nodiscard]] virtual std::size_t bends_between(double /*begin*/, double /*end*/) const { return 0; }
+  [[nodiscard]] virtual std::optional<std::size_t> bends_between(double begin, double end) const = 0;
 
   ValueRule rule;
 };
@@ -47,6 +47,9 @@ class Formula : public Function::Form {
   }
   [[nodiscard]] bool varies(char argument) const override { return expression_.uses(std::string(1, argument)); }
   void check_time(double /*begin*/, double /*end*/) const override {}
+  [[nodiscard]] std::optional<std::size_t> bends_between(double /*begin*/, double /*end*/) const override {
+    return varies('t') ? std::nullopt : std::optional<std::size_t>(0);
+  }
 
  private:
   Expression expression_;
@@ -67,7 +70,7 @@ class Tabulated : public Function::Form {
     return table_(argument);
   }
   [[nodiscard]] bool varies(char argument) const override { return argument == argument_; }
-  [[nodiscard]] std::size_t bends_between(double begin, double end) const override {
+  [[nodiscard]] std::optional<std::size_t> bends_between(double begin, double end) const override {
     return argument_ == 't' ? table_.places_between(begin, end) : 0;
   }
   void check_time(double begin, double end) const override {
@@ -138,7 +141,7 @@ std::optional<double> Function::constant() const {
   return form_ ? std::nullopt : std::optional(constant_);
 }
 
-std::size_t Function::bends_between(double begin, double end) const {
+std::optional<std::size_t> Function::bends_between(double begin, double end) const {
   return form_ ? form_->bends_between(begin, end) : 0;
 }
 

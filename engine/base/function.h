@@ -36,8 +36,9 @@ class Function {
   [[nodiscard]] bool varies_in_place() const;
   [[nodiscard]] std::optional<double> constant() const;
 
-  // Where a table over time may bend between two times; 0 for anything else.
-  [[nodiscard]] std::size_t bends_between(double begin, double end) const;
+  // How often a table over time may bend between two times; 0 for what does not change in time. Of a formula nothing: only its
+  // values tell.
+  [[nodiscard]] std::optional<std::size_t> bends_between(double begin, double end) const;
 
   // Throws InputError for a table over time that does not reach from `begin` to `end`.
   void check_time(double begin, double end) const;

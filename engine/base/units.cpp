@@ -56,7 +56,8 @@ std::string_view trimmed(std::string_view text) {
 // UDUNITS also reads products with numbers ("m 3" is 3 m), origins ("K @ 3") and dates: surely mistakes here. Digits may
 // only be exponents: behind a letter, a sign, a hat, or another digit.
 bool plain_spelling(std::string_view unit) {
-  if (unit.find('@') != std::string_view::npos) return false;
+  // A zero byte would end the unit for UDUNITS and hide the rest.
+  if (unit.find('@') != std::string_view::npos || unit.find('\0') != std::string_view::npos) return false;
   for (std::size_t i = 0; i < unit.size(); ++i) {
     if (!is_digit(unit[i])) continue;
     if (i == 0) return false;

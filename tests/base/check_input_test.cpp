@@ -109,6 +109,13 @@ TEST(CheckInput, NamesAndFormsAreToldApart) {
   EXPECT_EQ(weather_of("air: {table: 5.csv}").checked.at("air").at("table").text, "5.csv");
 }
 
+TEST(CheckInput, AFormulaWhereANumberStandsIsToldHowToBeWritten) {
+  EXPECT_EQ(weather_of("air: 25 + 5*sin(t)").wrong,
+            "w:1:6: air is 25 + 5*sin(t) (must be a temperature, K). Write a formula as {expression: \"25 + 5*sin(t)\"}\n");
+  EXPECT_EQ(weather_of("air: 1\nice: 3 - 0.01*T").wrong,
+            "w:2:6: ice is 3 - 0.01*T (must be positive, W/m/K). Write a formula as {expression: \"3 - 0.01*T\"}\n");
+}
+
 TEST(CheckInput, FormsThatDoNotFitAreRefused) {
   EXPECT_EQ(weather_of("air: 1\nwind: {expression: t, table: a}").wrong,
             "w:2:23: wind.table is given beside expression (must have exactly one of expression, table). Keep one of them\n");

@@ -63,6 +63,20 @@ TEST(Curve, TheIntegralOfAFormulaMatchesItsAntiderivative) {
   EXPECT_NEAR(wave.integral(431.7), midpoint_integral(wave, 431.7), 1e-5);
 }
 
+TEST(Curve, TheIntegralOfAFormulaThatJumpsIsExactAndNeverFalls) {
+  const Curve jump = formula("2 + 40*(T > 299.3)");
+  double before = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double T = 298.5 + i * 1e-3;
+    const double integral = jump.integral(T);
+    EXPECT_NEAR(integral, 2 * T + 40 * std::max(0.0, T - 299.3), 1e-9) << T;
+    EXPECT_GT(integral, before) << T;
+    before = integral;
+  }
+  const Curve kink = formula("1 + abs(T - 400.7)");
+  EXPECT_NEAR(kink.integral(402), 402 + 0.5 * (400.7 * 400.7 + 1.3 * 1.3), 1e-7);
+}
+
 TEST(Curve, AFormulaThatBreaksItsRuleNamesTheTemperature) {
   const Curve falling = formula("10 - 0.01*T");
   EXPECT_NEAR(falling(900), 1, 1e-12);

@@ -103,6 +103,8 @@ TEST(Units, UnknownUnitsAndOddSpellingsAreRefused) {
   EXPECT_EQ(reason_of("3 furlongz", q::length), "furlongz is no known unit | Did you mean 3 m?");
   EXPECT_EQ(reason_of("3 m 2", q::length), "m 2 is no known unit | Did you mean 3 m?");
   EXPECT_EQ(reason_of("3 2 m", q::length), "2 m is no known unit | Did you mean 3 m?");
+  const auto zero_byte = parse_quantity(std::string_view("3 m\0 2", 6), q::length);
+  EXPECT_TRUE(std::holds_alternative<UnitProblem>(zero_byte)) << "what follows it is not left out";
   EXPECT_EQ(reason_of("3 K @ 5", q::temperature), "K @ 5 is no known unit | Did you mean 3 K?");
   EXPECT_EQ(reason_of("3 s since 2000", q::time), "s since 2000 is no known unit | Did you mean 3 s?");
   EXPECT_EQ(reason_of("3 m/", q::length), "m/ is no known unit | Did you mean 3 m?");

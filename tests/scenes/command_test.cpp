@@ -56,6 +56,11 @@ TEST(Command, SaysWhatADirectoryThatCannotBeWrittenIs) {
   EXPECT_NE(outcome.text.find("/proc/nowhere"), std::string::npos) << outcome.text;
 }
 
+TEST(Command, FailsIfWhatItPrintsDoesNotArrive) {
+  const int status = std::system((std::string(SCREE_PROGRAM) + " check " + scene("slab") + " > /dev/full").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
 TEST(Command, IsSilentWhenAskedTo) {
   const auto directory = fresh_directory("silent");
   const Outcome outcome = scree("run " + scene("slab") + " --quiet --out " + directory.string());

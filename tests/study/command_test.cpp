@@ -259,6 +259,14 @@ TEST(StudyCommand, WritesAScriptForGnuParallelThatMakesAndGathersItsRuns) {
   EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
 }
 
+TEST(StudyCommand, WritesNoScriptThatGnuParallelWouldChange) {
+  const OneStudy study(two_by_two);
+  const Ended ended = shell(fmt::format("{} study {} --parallel runs.sh --out 'out {{.}}'", SCREE_PROGRAM, study.file.string()),
+                            study.file.parent_path());
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.text, HasSubstr("must name no file with { in it"));
+}
+
 TEST(StudyCommand, TellsAProgramHowFarItIsAndHowItEnded) {
   const OneStudy study("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h, 2 h]}]\nreport: [heat.time]\n");
   const Ended ended = shell(fmt::format("{} study {} --json --out {}", SCREE_PROGRAM, study.file.string(), study.out.string()),

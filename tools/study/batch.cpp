@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/check.h"
+
 namespace scree::study {
 
 namespace {
@@ -30,6 +32,17 @@ std::string command_of(const Batch& batch, const std::string& what) {
                      quoted(std::filesystem::absolute(batch.directory).string()), what);
 }
 
+// GNU parallel puts a task's number wherever a replacement string such as {} or {.} stands, quoted or not.
+void refuse_braces(const std::string& command) {
+  if (command.find('{') == std::string::npos) return;
+  Problem problem;
+  problem.key = "--parallel";
+  problem.value = command;
+  problem.rule = "must name no file with { in it, for GNU parallel replaces what stands in braces";
+  problem.suggestion = "Rename the folder or the file";
+  throw InputError(problem);
+}
+
 }  // namespace
 
 std::string slurm_script(const Batch& batch) {
@@ -52,6 +65,7 @@ std::string slurm_script(const Batch& batch) {
 
 std::string parallel_script(const Batch& batch) {
   const int threads = batch.threads.value_or(1);
+  refuse_braces(command_of(batch, ""));
   return fmt::format(
       "#!/bin/sh\n"
       "# Runs {} runs of a study by GNU parallel, one on a processor unless its options say otherwise, and gathers the "

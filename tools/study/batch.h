@@ -17,7 +17,7 @@ struct Batch {
 // A job array for `sbatch`, a task per run.
 std::string slurm_script(const Batch& batch);
 
-// A shell script that makes the runs by GNU parallel and gathers them.
+// A shell script that makes the runs by GNU parallel and gathers them. Throws InputError for a name that it would change.
 std::string parallel_script(const Batch& batch);
 
 }  // namespace scree::study
