@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "engine/mesh/volume_in_box.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
 #include "thermal/problems.h"
@@ -31,7 +32,7 @@ class Sample {
     model_.holds.clear();
     model_.loads.clear();
     model_.exchanges.clear();
-    inside_ = elements_in(mesh, window);
+    inside_ = parts_in(mesh, window);
     if (model.varying) {
       throw InputError(problem("heat.effective_conductivity", "a material whose properties depend on temperature",
                                "must have constant properties", "Give the values at the temperature of interest"));
@@ -43,7 +44,7 @@ class Sample {
 
   [[nodiscard]] EffectiveConductivity<dim> measure() {
     EffectiveConductivity<dim> result;
-    for (const ElementId e : inside_) result.solid_fraction += mesh::element_volume(mesh_, e) / window_.volume();
+    for (const ElementPart& part : inside_) result.solid_fraction += part.volume / window_.volume();
     result.volume_mean = volume_mean();
     result.upper = linear_temperature();
     for (int axis = 0; axis < dim; ++axis) result.along[axis] = between_plates(axis);
@@ -57,9 +58,9 @@ class Sample {
   [[nodiscard]] double volume_mean() const {
     const Table<ElementId, BlockId> blocks = mesh::element_blocks(mesh_);
     double sum = 0;
-    for (const ElementId e : inside_) {
-      const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[e]].body].material];
-      sum += material.conductivity->value.constant().value() * mesh::element_volume(mesh_, e);
+    for (const ElementPart& part : inside_) {
+      const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[part.element]].body].material];
+      sum += material.conductivity->value.constant().value() * part.volume;
     }
     return sum / window_.volume();
   }
@@ -112,7 +113,7 @@ class Sample {
   [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
     const auto fluxes = element_fluxes(mesh_, materials_, model_.rows.to_nodes(temperature));
     Point<dim> sum = Point<dim>::Zero();
-    for (const ElementId e : inside_) sum += mesh::element_volume(mesh_, e) * fluxes[e.index()];
+    for (const ElementPart& part : inside_) sum += part.volume * fluxes[part.element.index()];
     return sum / window_.volume();
   }
 
@@ -137,9 +138,7 @@ class Sample {
 
   [[nodiscard]] double between_plates(int axis) {
     hold([&](NodeId node) { return beyond(node, axis); });
-    const double length = window_.sizes()[axis];
-    Eigen::VectorXd plates = coordinates(axis).cwiseMax(0).cwiseMin(length);
-    return -mean_flux(solve(plates, Eigen::VectorXd::Zero(model_.capacity.size())))[axis];
+    return -mean_flux(solve(coordinates(axis), Eigen::VectorXd::Zero(model_.capacity.size())))[axis];
   }
 
   struct Side {
@@ -210,7 +209,7 @@ class Sample {
   HeatModel model_;
   Aabb<dim> window_;
   double rounding_;  // [m]
-  std::vector<ElementId> inside_;
+  std::vector<ElementPart> inside_;
   std::vector<NodeId> rows_;        // a node of each row: tied ones share one (tied_nodes.h)
   std::vector<std::size_t> group_;  // of each row: the row that stands for all it is joined with
   std::optional<FreeNodes> free_;
@@ -220,18 +219,17 @@ class Sample {
 }  // namespace
 
 template <int dim>
-std::vector<ElementId> elements_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
-  std::vector<ElementId> inside;
+std::vector<ElementPart> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
+  std::vector<ElementPart> parts;
   for (const ElementId e : mesh.elements.ids()) {
-    Point<dim> centre = Point<dim>::Zero();
-    for (const NodeId node : mesh.elements[e]) centre += mesh.nodes[node] / (dim + 1);
-    if (window.contains(centre)) inside.push_back(e);
+    const double volume = mesh::volume_in_box(mesh, e, window);
+    if (volume > 0) parts.push_back({e, volume});
   }
-  if (!inside.empty()) return inside;
+  if (!parts.empty()) return parts;
   Aabb<dim> extent;
   for (const Point<dim>& node : mesh.nodes) extent.extend(node);
   throw InputError(problem("heat.effective_conductivity", "a window " + span_of(window),
-                           "must hold the centre of at least one element", "The blocks reach " + span_of(extent)));
+                           "must hold a part of at least one element", "The blocks reach " + span_of(extent)));
 }
 
 template <int dim>
@@ -241,8 +239,8 @@ EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& me
   return Sample<dim>(mesh, materials, model, window).measure();
 }
 
-template std::vector<ElementId> elements_in<2>(const mesh::BlockMesh<2>&, const Aabb<2>&);
-template std::vector<ElementId> elements_in<3>(const mesh::BlockMesh<3>&, const Aabb<3>&);
+template std::vector<ElementPart> parts_in<2>(const mesh::BlockMesh<2>&, const Aabb<2>&);
+template std::vector<ElementPart> parts_in<3>(const mesh::BlockMesh<3>&, const Aabb<3>&);
 template EffectiveConductivity<2> effective_conductivity<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
                                                             const HeatModel&, const Aabb<2>&);
 template EffectiveConductivity<3> effective_conductivity<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,

@@ -24,12 +24,18 @@ struct EffectiveConductivity {
   double volume_mean = 0;                 // of the conductivity, voids at 0: no arrangement conducts better [W/m/K]
 };
 
-// Those whose centre lies in the window. Throws InputError if there is none.
-template <int dim>
-std::vector<ElementId> elements_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
+struct ElementPart {
+  ElementId element;
+  double volume = 0;  // [m3] (2-D: [m2])
+};
 
-// Nodes on and outside the window's sides are held; elements count whose centre is in it, so sides should follow faces of
-// elements or be far apart. `model` is that of `mesh`, whatever it holds fixed. Throws InputError for a window that holds no
+// The parts of elements that lie in the window. Throws InputError if there is none.
+template <int dim>
+std::vector<ElementPart> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
+
+// Nodes on and outside the window's sides are held, where a temperature that is linear along the axis would hold them: exact in
+// a homogeneous solid, wherever the sides cut its elements; otherwise what is cut is off by the size of elements, and so may
+// the bounds be. `model` is that of `mesh`, whatever it holds fixed. Throws InputError for a window that holds no part of an
 // element.
 template <int dim>
 EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& mesh,

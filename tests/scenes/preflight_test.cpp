@@ -48,7 +48,7 @@ TEST(Preflight, FindsWhatTheBlocksCannotGive) {
       {"heat.sources=[{body: plate, power: 1, within: {low: [5, 5, 5], high: [6, 6, 6]}}]",
        "--set heat.sources: ", "at least one element's centre"},
       {"heat.effective_conductivity={low: [5, 5, 5], high: [6, 6, 6]}", "--set heat.effective_conductivity: ",
-       "is a window from (5, 5, 5) to (6, 6, 6) m (must hold the centre of at least one element)"},
+       "is a window from (5, 5, 5) to (6, 6, 6) m (must hold a part of at least one element)"},
       {"heat.space_order=4", "--set heat.space_order: ", "must have blocks of hexahedra"},
       {"heat.initial={expression: 300 + 1/(z - z), unit: K}", "--set heat.initial: ", "inf K at x ="},
       {"output.probes={p: [9, 9, 9]}", "--set output.probes: ", "output.probes.p is [9, 9, 9]"},

@@ -96,6 +96,24 @@ TYPED_TEST(Homogenised, SolidRockIsItself) {
   EXPECT_LT((*found.lower - tensor).norm(), 1e-9);
 }
 
+// The sides cut elements anyhow.
+TYPED_TEST(Homogenised, SolidRockIsItselfInAWindowThatFollowsNoFaces) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(1, beta);
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(0.013, 0.081));
+  EXPECT_NEAR(found.solid_fraction, 1, 1e-12);
+  EXPECT_NEAR(found.volume_mean, k, 1e-12);
+  EXPECT_LT((found.upper - EffectiveConductivity<dim>::Tensor::Identity() * k).norm(), 1e-9);
+  for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis], k, 1e-9);
+}
+
+TYPED_TEST(Homogenised, AWindowThatReachesBeyondTheRockIsFilledByItsShare) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(1, beta);
+  const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(-0.013, 0.081));
+  EXPECT_NEAR(found.solid_fraction, std::pow(0.081 / 0.094, dim), 1e-12);
+}
+
 TYPED_TEST(Homogenised, BlocksThatTouchNothingConductNothing) {
   constexpr int dim = TypeParam::value;
   const auto rock = jointed_rock<dim>(3, 0);

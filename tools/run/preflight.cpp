@@ -49,7 +49,7 @@ void check_heat(const Scene& scene, const mesh::BlockMesh<dim>& blocks) {
   thermal::check_heat_options(blocks, scene.materials, options, moving);
   if (!moving.empty()) return;
   output::locate_probes(blocks, scene.probes, probe_reading(scene));
-  if (const auto window = effective_window<dim>(scene)) thermal::elements_in(blocks, *window);
+  if (const auto window = effective_window<dim>(scene)) thermal::parts_in(blocks, *window);
 }
 
 template void check_heat<2>(const Scene&, const mesh::BlockMesh<2>&);
