@@ -11,7 +11,7 @@ namespace {
 
 Measured measured(double wall, double error, double factor = 1) {
   Measured run;
-  run.rung = {factor, 0.1, "implicit", ""};
+  run.rung = {factor, 0.1, "implicit", "", ""};
   run.wall_seconds = wall;
   run.max_error = error;
   run.steps = 10;

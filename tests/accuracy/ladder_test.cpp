@@ -58,6 +58,17 @@ TEST(Ladder, OfASteadyStateVariesTheMeshAlone) {
   EXPECT_THROW(ladder_of(steady, options), InputError);
 }
 
+TEST(Ladder, ComparesLumpedBlocksWithMeshedOnes) {
+  LadderOptions options;
+  options.mesh_factors = {1};
+  options.tolerances = {0.1};
+  options.block_models = {"lumped", "meshed", "auto"};
+  const auto ladder = ladder_of(scene("blown_cubes"), options);
+  ASSERT_EQ(ladder.size(), 3u);
+  EXPECT_EQ(ladder[finest(ladder)].block_model, "meshed");
+  for (const Rung& rung : ladder) scene("blown_cubes", overrides_of(scene("blown_cubes"), rung));
+}
+
 TEST(Ladder, EveryRungIsASceneThatReads) {
   const Scene slab = scene("slab");
   for (const Rung& rung : ladder_of(slab, {})) {

@@ -52,6 +52,7 @@ void read_summary(const RunFiles& files, Measured& measured) {
   measured.elements = summary.at("elements");
   measured.steps = summary.at("heat").value("steps", std::int64_t{0});
   measured.time_error = summary.at("heat").value("time_error", 0.0);
+  if (summary.at("heat").contains("lumped_blocks")) measured.lumping_error = summary.at("heat").at("lumped_blocks").at("error");
   for (const auto& stage : summary.at("stages")) {
     const std::string name = stage.at("name");
     if (name == "contacts" || name == "assemble" || name == "heat")
@@ -119,6 +120,8 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_option("--tolerance", arguments.tolerances, "time tolerances (default: 10, 1 and 0.1 times the scene's)");
   command.add_option("--integrator", arguments.ladder.integrators, "steps in time (default: automatic)");
   command.add_option("--contact", arguments.ladder.contact_models, "contact models (default: the scene's)");
+  command.add_option("--blocks", arguments.ladder.block_models,
+                     "how blocks are resolved: meshed, lumped, auto (default: the scene's)");
   command.add_flag("--quiet", arguments.quiet, "no progress");
 }
 

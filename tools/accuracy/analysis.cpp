@@ -21,16 +21,24 @@ namespace {
   throw InputError(problem);
 }
 
+bool same_models(const Rung& a, const Rung& b) {
+  return a.integrator == b.integrator && a.contact_model == b.contact_model && a.block_model == b.block_model;
+}
+
 bool same_but_mesh(const Rung& a, const Rung& b) {
-  return a.tolerance == b.tolerance && a.integrator == b.integrator && a.contact_model == b.contact_model;
+  return a.tolerance == b.tolerance && same_models(a, b);
 }
 
 bool same_but_tolerance(const Rung& a, const Rung& b) {
-  return a.mesh_factor == b.mesh_factor && a.integrator == b.integrator && a.contact_model == b.contact_model;
+  return a.mesh_factor == b.mesh_factor && same_models(a, b);
 }
 
 std::string words(const Rung& rung) {
-  return rung.contact_model.empty() ? rung.integrator : rung.integrator + ", " + rung.contact_model;
+  std::string text = rung.integrator;
+  for (const std::string& model : {rung.contact_model, rung.block_model}) {
+    if (!model.empty()) text += ", " + model;
+  }
+  return text;
 }
 
 // What is known of a probe at the output time nearest to the asked one.

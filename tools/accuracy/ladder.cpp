@@ -24,7 +24,7 @@ void refuse_mesh_factors(const Scene& scene) {
   problem.value = "given";
   problem.rule =
       "must not be varied where blocks are single elements, fall, or come from a packing file: it would be another pile";
-  problem.suggestion = "Vary --tolerance, --integrator or --contact";
+  problem.suggestion = "Vary --tolerance, --integrator, --contact or --blocks";
   throw InputError(problem);
 }
 
@@ -34,7 +34,7 @@ void refuse_time_options(const Scene& scene, const LadderOptions& options) {
   problem.key = options.tolerances.empty() ? "--integrator" : "--tolerance";
   problem.value = "given";
   problem.rule = "has no use for a steady state, which takes no steps in time";
-  problem.suggestion = "Vary --mesh or --contact";
+  problem.suggestion = "Vary --mesh, --contact or --blocks";
   throw InputError(problem);
 }
 
@@ -43,13 +43,36 @@ std::vector<Value> or_else(const std::vector<Value>& given, std::vector<Value> o
   return given.empty() ? otherwise : given;
 }
 
+struct Models {
+  std::string blocks;
+  std::string contact;
+  std::string integrator;
+};
+
+std::vector<Models> models_of(const LadderOptions& options) {
+  std::vector<Models> models;
+  for (const std::string& blocks : or_else(options.block_models, {std::string()})) {
+    for (const std::string& contact : or_else(options.contact_models, {std::string()})) {
+      for (const std::string& integrator : or_else(options.integrators, {std::string("automatic")})) {
+        models.push_back({blocks, contact, integrator});
+      }
+    }
+  }
+  return models;
+}
+
+// How far the blocks are from being meshed.
+int lumping(const std::string& block_model) {
+  return block_model == "lumped" ? 2 : (block_model == "auto" ? 1 : 0);
+}
+
 // Errors are differences: to an exact solution, or to another run.
 void check_ladder(const Scene& scene, const std::vector<Rung>& ladder) {
   std::set<std::vector<std::string>> different;
   for (const Rung& rung : ladder) different.insert(overrides_of(scene, rung));
   const bool exact = std::any_of(scene.probes.begin(), scene.probes.end(), [](const auto& probe) { return probe.exact; });
   Problem problem;
-  problem.key = "the ladder of --mesh, --tolerance, --integrator and --contact";
+  problem.key = "the ladder of --mesh, --tolerance, --integrator, --contact and --blocks";
   problem.value = fmt::format("{} runs, {} of them different", ladder.size(), different.size());
   if (different.size() < ladder.size()) {
     problem.rule = "must not make a run twice";
@@ -73,14 +96,12 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
   std::sort(factors.rbegin(), factors.rend());
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::vector<Rung> ladder;
-  for (const std::string& model : or_else(options.contact_models, {std::string()})) {
-    for (const std::string& integrator : or_else(options.integrators, {std::string("automatic")})) {
-      for (const double factor : factors) {
-        // Explicit steps follow from stability, whatever the tolerance.
-        const bool chooses_steps = integrator != "explicit_euler";
-        const std::vector<double> varied = chooses_steps ? tolerances : std::vector<double>{tolerances.front()};
-        for (const double asked : varied) ladder.push_back({factor, asked, integrator, model});
-      }
+  for (const Models& models : models_of(options)) {
+    for (const double factor : factors) {
+      // Explicit steps follow from stability, whatever the tolerance.
+      const bool chooses_steps = models.integrator != "explicit_euler";
+      const std::vector<double> varied = chooses_steps ? tolerances : std::vector<double>{tolerances.front()};
+      for (const double asked : varied) ladder.push_back({factor, asked, models.integrator, models.contact, models.blocks});
     }
   }
   check_ladder(scene, ladder);
@@ -89,7 +110,7 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
 
 std::size_t finest(const std::vector<Rung>& ladder) {
   const auto coarseness = [](const Rung& rung) {
-    return std::tuple(rung.mesh_factor, rung.integrator == "explicit_euler" ? 1 : 0, rung.tolerance);
+    return std::tuple(rung.mesh_factor, lumping(rung.block_model), rung.integrator == "explicit_euler" ? 1 : 0, rung.tolerance);
   };
   const auto best = std::min_element(ladder.begin(), ladder.end(),
                                      [&](const Rung& a, const Rung& b) { return coarseness(a) < coarseness(b); });
@@ -107,6 +128,7 @@ std::vector<std::string> overrides_of(const Scene& scene, const Rung& rung) {
     overrides.push_back(fmt::format("heat.tolerance={:.17g} K", rung.tolerance));
     overrides.push_back("heat.integrator=" + rung.integrator);
   }
+  if (!rung.block_model.empty()) overrides.push_back("heat.blocks.model=" + rung.block_model);
   if (!rung.contact_model.empty()) overrides.push_back("contact.model=" + rung.contact_model);
   return overrides;
 }

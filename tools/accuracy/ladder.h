@@ -14,13 +14,14 @@ struct LadderOptions {
   std::vector<double> tolerances;  // [K]
   std::vector<std::string> integrators;
   std::vector<std::string> contact_models;
+  std::vector<std::string> block_models;
 };
 
 // Every combination, the coarsest first. Throws InputError for a mesh to be varied that makes the blocks or is given
 // whole, for a run that would be made twice, and for a single one without an exact solution.
 std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options);
 
-// The run with the finest mesh and the smallest tolerance, by the implicit scheme if that is among them.
+// The run with the finest mesh, the fewest lumped blocks and the smallest tolerance, by steps chosen from it if there are any.
 std::size_t finest(const std::vector<Rung>& ladder);
 
 // As `--set` takes them.

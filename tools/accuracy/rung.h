@@ -13,6 +13,7 @@ struct Rung {
   double tolerance = 0;       // of the time error [K]
   std::string integrator;     // as heat.integrator
   std::string contact_model;  // as contact.model; empty: as the scene has it
+  std::string block_model;    // as heat.blocks.model; empty: as the scene has it
 };
 
 struct Measured {
@@ -25,6 +26,7 @@ struct Measured {
   double whole_wall_seconds = 0;  // from the command line to the end
   double peak_memory_bytes = 0;
   double time_error = 0;            // the run's own estimate [K]
+  double lumping_error = 0;         // the run's own estimate [K]; 0 without lumped blocks
   std::optional<double> max_error;  // over probes and output times [K]; nothing for the reference itself and for a failed run
   std::optional<double> rms_error;  // [K]
   bool on_front = false;            // no other run is both faster and more accurate
