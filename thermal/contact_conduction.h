@@ -57,7 +57,7 @@ Point<dim> conducted(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, M
                      const Point<dim>& normal);
 
 // At which a joint takes a conductivity that depends on temperature, 20 C [K]. The stiffness factor is no property of matter,
-// so that joints are the same at all temperatures.
+// so that such joints are the same at all temperatures; perfect ones are not (perfect_joint.h).
 constexpr double reference_temperature = 293.15;
 
 // k_b: the arithmetic mean of the two sides' n . k n [W/m/K]. Both must have a conductivity.

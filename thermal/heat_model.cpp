@@ -216,7 +216,8 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   assemble_blocks(mesh, materials, options.space_order, numbering, model).swap(model.conductance);
   if (numbering) share_rows(mesh, materials, *numbering, model);
   if (!contacts.contacts.empty()) model.fastest_cell.reset();  // joints conduct, too
-  add_joints(contacts, joints, options.joint.form, model.rows, model.conductance);
+  add_joints(contacts, joints, options.joint.form, Field::temperature, model.rows, model.conductance);
+  if (model.varying) add_joints(contacts, joints, options.joint.form, Field::phi, model.rows, model.varying->unit_conductance);
   return model;
 }
 

@@ -74,11 +74,12 @@ struct RowTerm {
 template <int dim>
 class JointRows {
  public:
-  JointRows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+  JointRows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form, Field field,
             const NodeMap& rows, std::size_t size)
       : contacts_(contacts),
         conduction_(conduction),
         form_(form),
+        field_(field),
         rows_(rows),
         contacts_at_(size, [this](const auto& visit) { this->visit_contacts(visit); }),
         perfect_at_(conduction.perfect.empty() ? 0 : size, [this](const auto& visit) { this->visit_perfect(visit); }) {}
@@ -97,6 +98,7 @@ class JointRows {
 
   template <class Visit>
   void visit_contacts(const Visit& visit) const {
+    if (field_ == Field::phi) return;
     auto perfect = conduction_.perfect.begin();
     for (std::size_t c = 0; c < conduction_.conductances.size(); ++c) {
       const bool is_perfect = perfect != conduction_.perfect.end() && perfect->contact == c;
@@ -113,8 +115,10 @@ class JointRows {
   template <class Visit>
   void visit_perfect(const Visit& visit) const {
     for (std::size_t t = 0; t < conduction_.perfect.size(); ++t) {
-      if (is_tied(contacts_.contacts[conduction_.perfect[t].contact], rows_)) continue;
-      const RowTerm<dim> term(conduction_.perfect[t], rows_);
+      const PerfectTerm<dim>& of_nodes = conduction_.perfect[t];
+      if (of_nodes.of_phi.has_value() != (field_ == Field::phi)) continue;
+      if (is_tied(contacts_.contacts[of_nodes.contact], rows_)) continue;
+      const RowTerm<dim> term(of_nodes, rows_);
       for (int i = 0; i < term.size; ++i) visit(term.rows[i], static_cast<std::uint32_t>(t));
     }
   }
@@ -132,12 +136,13 @@ class JointRows {
   // The diagonal is minus the sum of the others, so that the row sums to zero to the last bit of what is entered.
   void add_perfect(const PerfectTerm<dim>& of_nodes, int row, RowSum& sum) const {
     const double conductance = conduction_.conductances[of_nodes.contact];
+    const double scale = of_nodes.of_phi.value_or(1);
     const RowTerm<dim> term(of_nodes, rows_);
     const int here = term.find(row);
     for (int i = 0; i < term.size; ++i) {
       if (i == here) continue;
-      const double entry =
-          conductance * (term.jump[here] * term.jump[i]) - (term.jump[here] * term.flux[i] + term.jump[i] * term.flux[here]);
+      const double entry = scale * (conductance * (term.jump[here] * term.jump[i]) -
+                                    (term.jump[here] * term.flux[i] + term.jump[i] * term.flux[here]));
       if (entry == 0) continue;
       sum.add(term.rows[i], entry);
       sum.add(row, -entry);
@@ -147,10 +152,28 @@ class JointRows {
   const contact::ContactSet<dim>& contacts_;
   const JointConduction<dim>& conduction_;
   JointForm form_;
+  Field field_;
   const NodeMap& rows_;
   Incidence contacts_at_;
   Incidence perfect_at_;
 };
+
+// As differences within each side: the fluxes of a side sum to zero only to rounding, and temperatures in kelvin are large.
+template <int dim>
+double perfect_flow(const PerfectTerm<dim>& term, const JointConduction<dim>& conduction, const Eigen::VectorXd& temperature) {
+  std::array<double, PerfectTerm<dim>::corners> field{};  // as if k were that at the reference temperature [K]
+  for (int i = 0; i < term.corners; ++i) {
+    const double at = temperature[term.nodes[i].value()];
+    field[i] = term.of_phi ? *term.of_phi * conduction.conductivities[term.material.index()].integral(at) : at;
+  }
+  double drop = 0;
+  double flux = 0;
+  for (int i = 0; i < term.corners; ++i) {
+    drop += term.jump[i] * field[i];
+    flux += term.flux[i] * (field[i] - field[i <= dim ? 0 : dim + 1]);
+  }
+  return conduction.conductances[term.contact] * drop - flux;
+}
 
 }  // namespace
 
@@ -159,6 +182,13 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
                                       const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
   JointConduction<dim> conduction;
   conduction.perfect = perfect_terms(mesh, materials, contacts, joint);
+  const bool any_of_phi = std::any_of(conduction.perfect.begin(), conduction.perfect.end(),
+                                      [](const PerfectTerm<dim>& term) { return term.of_phi.has_value(); });
+  if (any_of_phi) {
+    for (const Material& material : materials) {
+      conduction.conductivities.push_back(material.conductivity ? material.conductivity->value : Curve());
+    }
+  }
   conduction.conductances.reserve(contacts.contacts.size());
   auto perfect = conduction.perfect.begin();
   for (const auto& contact : contacts.contacts) {
@@ -173,12 +203,13 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
 }
 
 template <int dim>
-void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form,
+void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form, Field field,
                 const NodeMap& rows, SparseMatrix& conductance) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
-  if (contacts.contacts.empty()) return;
+  const bool none = field == Field::phi ? conduction.conductivities.empty() : contacts.contacts.empty();
+  if (none) return;
   const auto size = static_cast<int>(conductance.rows());
-  const JointRows<dim> joints(contacts, conduction, form, rows, static_cast<std::size_t>(size));
+  const JointRows<dim> joints(contacts, conduction, form, field, rows, static_cast<std::size_t>(size));
   const SparseMatrix of_joints = assembled(
       size,
       [&](int row, RowSum& sum) {
@@ -195,7 +226,13 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
   std::vector<double> flows;
   flows.reserve(contacts.contacts.size());
+  auto term = conduction.perfect.begin();
   for (const double conductance : conduction.conductances) {
+    const bool is_perfect = term != conduction.perfect.end() && term->contact == flows.size();
+    if (is_perfect) {
+      flows.push_back(perfect_flow(*term++, conduction, temperature));
+      continue;
+    }
     const auto difference = temperature_difference(contacts.contacts[flows.size()], form);
     double drop = 0;
     for (int i = 0; i < 2 * dim; ++i) {
@@ -203,22 +240,15 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
     }
     flows.push_back(conductance * drop);
   }
-  for (const PerfectTerm<dim>& term : conduction.perfect) {
-    // As differences within each side: the fluxes of a side sum to zero only to rounding, and temperatures in kelvin are large.
-    for (int i = 0; i < term.corners; ++i) {
-      const int first = i <= dim ? 0 : dim + 1;
-      flows[term.contact] -= term.flux[i] * (temperature[term.nodes[i].value()] - temperature[term.nodes[first].value()]);
-    }
-  }
   return flows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                           \
-  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,   \
-                                                      const contact::ContactSet<dim>&, const JointOptions&);             \
-  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, const NodeMap&, \
-                                Eigen::SparseMatrix<double>&);                                                           \
-  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,          \
+#define SCREE_INSTANTIATE(dim)                                                                                         \
+  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
+                                                      const contact::ContactSet<dim>&, const JointOptions&);           \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, Field,        \
+                                const NodeMap&, Eigen::SparseMatrix<double>&);                                         \
+  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,        \
                                                   const Eigen::VectorXd&, JointForm);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "thermal/block_conduction.h"
 #include "thermal/contact_conduction.h"
+#include "thermal/problems.h"
 
 namespace scree::thermal {
 
@@ -42,16 +45,46 @@ class PerfectJoints {
     bounds_[element] += contacts_[c].area * conductivity / mesh::element_volume(mesh_, element);
   }
 
+  struct Sides {
+    double of_owner, of_target;  // w of the two sides
+    double penalty;              // gamma
+    bool one_varying_material = false;
+  };
+
+  [[nodiscard]] Sides weigh(const contact::Contact<dim>& contact) const {
+    const double c1 = bounds_[contact.owner_element], c2 = bounds_[contact.target_element];
+    const bool owner_varies = materials_[material(contact.owner)].conductivity->varies();
+    const bool target_varies = materials_[material(contact.target)].conductivity->varies();
+    if (owner_varies && target_varies && material(contact.owner) != material(contact.target)) refuse(contact);
+    if (owner_varies && !target_varies) return {0, 1, 2 * c2};
+    if (target_varies && !owner_varies) return {1, 0, 2 * c1};
+    return {c2 / (c1 + c2), c1 / (c1 + c2), 2 * c1 * c2 / (c1 + c2), owner_varies};
+  }
+
+  [[nodiscard]] MaterialId material(BlockId block) const { return mesh_.bodies[mesh_.blocks[block].body].material; }
+
+  [[noreturn]] void refuse(const contact::Contact<dim>& contact) const {
+    throw InputError(problem("contact",
+                             fmt::format("a perfect joint between {} and {}", materials_[material(contact.owner)].name,
+                                         materials_[material(contact.target)].name),
+                             "must have at most one side whose conductivity depends on temperature, unless both are of one "
+                             "material",
+                             "Give the joint a large conductance instead"));
+  }
+
   [[nodiscard]] PerfectTerm<dim> term(std::size_t c) const {
     const contact::Contact<dim>& contact = contacts_[c];
-    const double c1 = bounds_[contact.owner_element], c2 = bounds_[contact.target_element];
     PerfectTerm<dim> term;
     term.contact = c;
-    term.penalty = 2 * c1 * c2 / (c1 + c2);
+    term.material = material(contact.owner);
+    const Sides sides = weigh(contact);
+    term.penalty = sides.penalty;
+    if (sides.one_varying_material) term.of_phi = 1 / materials_[term.material].conductivity->value(reference_temperature);
     const Point<dim> normal = contact_normal(mesh_, contact);
-    const double area = contact.area / (c1 + c2);
-    set_side(term, 0, contact.owner_element, area * c2 * conducted<dim>(mesh_, materials_, contact.owner, normal));
-    set_side(term, dim + 1, contact.target_element, area * c1 * conducted<dim>(mesh_, materials_, contact.target, normal));
+    set_side(term, 0, contact.owner_element,
+             contact.area * sides.of_owner * conducted<dim>(mesh_, materials_, contact.owner, normal));
+    set_side(term, dim + 1, contact.target_element,
+             contact.area * sides.of_target * conducted<dim>(mesh_, materials_, contact.target, normal));
     set_jump(term, 0, contact.on_owner, 1);
     set_jump(term, dim + 1, contact.on_target, -1);
     return term;

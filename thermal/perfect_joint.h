@@ -13,8 +13,14 @@
 // leave at least half of every block's own energy, and K is positive semidefinite with the constants as its kernel. The weights
 // are those that need the least penalty (Annavarapu, Hautefeuille and Dolbow, Comput. Methods Appl. Mech. Eng. 225-228, 2012);
 // they stay good when the two sides differ a thousandfold.
+//
+// Where k depends on temperature, both sides of one material: all of this in Kirchhoff's Phi, the integral of k over T, in
+// which the flux is linear. One side constant: its flux alone, w = 1 and gamma = 2 c, as if the other conducted without end;
+// heat then flows as the constant side says, and a linear field in either passes. Two materials whose k depends on temperature
+// have neither, and are refused.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/contact_set.h"
@@ -33,9 +39,14 @@ struct PerfectTerm {
   std::array<NodeId, corners> nodes;   // the owner's element's, then the target's
   std::array<double, corners> jump{};  // w: T1 - T2
   std::array<double, corners> flux{};  // [W/K]
+  // Where both sides are of one material whose k depends on temperature: 1/k at the reference temperature, times which all of
+  // the term is about Phi instead of T [m K/W].
+  std::optional<double> of_phi;
+  MaterialId material;  // of the owner
 };
 
-// One for each contact of a perfect joint, in the order of the set.
+// One for each contact of a perfect joint, in the order of the set. Throws InputError for one between two materials whose
+// conductivities depend on temperature.
 template <int dim>
 std::vector<PerfectTerm<dim>> perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                                             const contact::ContactSet<dim>& contacts, const JointOptions& joint);

@@ -194,9 +194,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   declare_reference(app, arguments);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int command(int argc, char** argv) {
   CLI::App app("Scree: bodies fall apart into blocks, pile up and are heated.", "scree");
   Arguments arguments;
   declare(app, arguments);
@@ -213,5 +211,15 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     fmt::print(stderr, "scree: {}\n", error.what());
     return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return command(argc, argv);
+  } catch (...) {
+    return 1;  // not even standard error takes the message
   }
 }

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/find_contacts.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
 #include "thermal/drive.h"
 #include "thermal/heat_run.h"
+#include "thermal/joint_conduction.h"
 #include "thermal/steady_state.h"
 #include "thermal/time_scheme.h"
 
@@ -153,6 +155,86 @@ TEST(GeneralScheme, HotBodiesInSuddenContactDoNotRing) {
   const Step step = make_implicit_scheme(model)->step(at, 1e9);
   const Eigen::VectorXd end = model.initial + step.change;
   EXPECT_LT(end.maxCoeff() - end.minCoeff(), 1);  // one step, far above all time scales, ends at one temperature
+}
+
+// Two boxes whose meshes do not match at x = 0.1, of materials 0 and `second`.
+template <int dim>
+mesh::BlockMesh<dim> unlike_boxes(MaterialId second) {
+  auto right = test::bar<dim>(0.1, 3, 3, 0.1);
+  right.low[0] = 0.1;
+  right.material = second;
+  return test::slab_mesh<dim>({test::bar<dim>(0.1, 2, 2, 0.1), right});
+}
+
+// Held at 900 K and 300 K at its ends.
+template <int dim>
+struct PerfectPair {
+  mesh::BlockMesh<dim> mesh;
+  Eigen::VectorXd temperature;  // steady [K]
+  double flow = 0;              // into the hot end [W]
+  double through_joint = 0;     // by its contacts [W]
+
+  PerfectPair(const Table<MaterialId, Material>& materials, MaterialId second) : mesh(unlike_boxes<dim>(second)) {
+    HeatOptions options = test::options_for(mesh, 300);
+    options.joint.law = PerfectJoint{};
+    options.boundaries.push_back(test::hold(BodyId{0}, 0, 900, "hot"));
+    options.boundaries.push_back(test::hold(BodyId{1}, 0.2, 300, "cold"));
+    const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+    const HeatState steady = steady_state(make_heat_model(mesh, materials, contacts, options));
+    temperature = steady.temperature;
+    flow = steady.ledger.by_boundary.at(0);
+    const auto joints = joint_conduction(mesh, materials, contacts, options.joint);
+    for (const double part : contact_flows(contacts, joints, temperature, options.joint.form)) through_joint += part;
+  }
+};
+
+template <class Dim>
+class PerfectJointOfVaryingRock : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(PerfectJointOfVaryingRock, Dimensions);
+
+TYPED_TEST(PerfectJointOfVaryingRock, IsNotThereWhereBothSidesAreOfOneMaterial) {
+  constexpr int dim = TypeParam::value;
+  const double area = dim == 2 ? 0.1 : 0.01;
+  const auto phi = [](double t) { return t + 0.005 * t * t; };
+  const PerfectPair<dim> pair(varying_rock(), MaterialId{0});
+  for (const NodeId node : pair.mesh.nodes.ids()) {
+    const double exact = phi(900) + pair.mesh.nodes[node].x() / 0.2 * (phi(300) - phi(900));
+    EXPECT_NEAR(phi(pair.temperature[node.value()]) / exact, 1, 1e-9);
+  }
+  const double flow = area / 0.2 * (phi(900) - phi(300));
+  EXPECT_NEAR(pair.flow / flow, 1, 1e-9);
+  EXPECT_NEAR(pair.through_joint / flow, 1, 1e-9);
+}
+
+// T is linear in the constant half, Phi in the other; where they meet, at 650 K here, both have the same temperature and flux.
+TYPED_TEST(PerfectJointOfVaryingRock, MeetsAConstantMaterialWithoutAJump) {
+  constexpr int dim = TypeParam::value;
+  const double area = dim == 2 ? 0.1 : 0.01;
+  const auto phi = [](double t) { return t + 0.005 * t * t; };
+  const double met = 650;
+  for (const bool constant_first : {true, false}) {
+    Table<MaterialId, Material> materials = varying_rock();
+    materials.push_back(test::rock());
+    const double ends = constant_first ? phi(met) - phi(300) : phi(900) - phi(met);
+    materials[MaterialId{1}].conductivity = ends / (constant_first ? 900 - met : met - 300);
+    if (constant_first) std::swap(materials[MaterialId{0}], materials[MaterialId{1}]);
+    const PerfectPair<dim> pair(materials, MaterialId{1});
+    EXPECT_NEAR(pair.flow / (area / 0.1 * ends), 1, 1e-9);
+    EXPECT_NEAR(pair.through_joint / pair.flow, 1, 1e-9);
+    for (const NodeId node : pair.mesh.nodes.ids()) {
+      if (std::abs(pair.mesh.nodes[node].x() - 0.1) > 1e-9) continue;
+      EXPECT_NEAR(pair.temperature[node.value()], met, 1e-6);
+    }
+  }
+}
+
+TYPED_TEST(PerfectJointOfVaryingRock, IsRefusedWhereBothSidesVaryInTheirOwnWays) {
+  constexpr int dim = TypeParam::value;
+  Table<MaterialId, Material> materials = varying_rock();
+  materials.push_back(test::rock());
+  materials[MaterialId{1}].conductivity = test::curve("3 - 0.001*T");
+  EXPECT_THROW(PerfectPair<dim>(materials, MaterialId{1}), InputError);
 }
 
 // With k = R diag(3, 1) R^T turned by 30 degrees in the body and 40 more with the block: q = -k grad T.

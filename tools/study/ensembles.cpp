@@ -19,6 +19,7 @@ std::vector<std::vector<std::size_t>> rows_by_point(const Table& runs) {
   const Column& point = *runs.find("point");
   for (std::size_t row = 0; row < runs.rows(); ++row) rows[point.numbers[row]].push_back(row);
   std::vector<std::vector<std::size_t>> list;
+  list.reserve(rows.size());
   for (auto& [number, members] : rows) list.push_back(std::move(members));
   return list;
 }
@@ -73,6 +74,7 @@ Table ensembles_of(const Study& study, const Table& runs) {
     for (const char* name : {".count", ".mean", ".deviation", ".low", ".high"}) statistics.push_back({report.column + name});
     for (const auto& rows : points) {
       std::vector<double> values;
+      values.reserve(rows.size());
       for (const std::size_t row : rows) values.push_back(status[row] == "complete" ? column.numbers[row] : missing);
       const Statistics s = statistics_of(values);
       const double figures[] = {static_cast<double>(s.count), s.mean, s.deviation, s.low, s.high};

@@ -66,6 +66,7 @@ Column column_of(const std::string& name, const std::vector<Cell>& cells) {
 
 Table gather(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   std::vector<Outcome> outcomes;
+  outcomes.reserve(runs.size());
   for (const PlannedRun& run : runs) outcomes.push_back(read_outcome(files, run.directory));
   Table table;
   const auto add = [&](const std::string& name, auto cell) {
