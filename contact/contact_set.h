@@ -51,7 +51,7 @@ static_assert(sizeof(Contact<3>) == 128);
 // Where it is: on the owner, or halfway through an overlap [m].
 template <int dim>
 Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Contact<dim>& contact) {
-  const Point<dim> on_owner = point_of(mesh, contact.on_owner);
+  Point<dim> on_owner = point_of(mesh, contact.on_owner);
   if (contact.kind != Kind::overlap) return on_owner;
   return 0.5 * (on_owner + point_of(mesh, contact.on_target));
 }

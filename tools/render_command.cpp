@@ -55,10 +55,11 @@ double number(const std::string& option, const std::string& text, const Quantity
 
 Aabb<3> view_of(const std::vector<std::string>& corners) {
   Aabb<3> view;
-  for (int corner = 0; corner < 2; ++corner) {
+  for (std::size_t corner = 0; corner < 2; ++corner) {
     Eigen::Vector3d point;
-    for (int i = 0; i < 3; ++i)
-      point[i] = number("--view", corners[static_cast<std::size_t>(3 * corner + i)], quantity::length);
+    for (std::size_t i = 0; i < 3; ++i) {
+      point[static_cast<Eigen::Index>(i)] = number("--view", corners[3 * corner + i], quantity::length);
+    }
     if (corner == 1 && (point.array() <= view.max().array()).any()) {
       refuse("--view", fmt::format("{}", fmt::join(corners, " ")), "must be a low corner and a high one: x y z x y z");
     }

@@ -35,7 +35,7 @@ std::string bash_values(const OptionRow& option) {
     case Value::directory:
       return R"(COMPREPLY=($(compgen -d -- "$word")))";
     case Value::choice:
-      return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", joined(option.choices));
+      return fmt::format(R"(COMPREPLY=($(compgen -W "{}" -- "$word")))", joined(option.choices));
     case Value::free_text:
       return "COMPREPLY=()";
     case Value::none:

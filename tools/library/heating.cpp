@@ -26,7 +26,7 @@ namespace {
 }  // namespace
 
 template <int dim>
-Heating<dim>::Heating(const Scene& scene, const packing::Packing<dim>& packing) : scene_(scene) {
+Heating<dim>::Heating(Scene scene, const packing::Packing<dim>& packing) : scene_(std::move(scene)) {
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
   pile_ = run::placed_pile(scene_, packing);
   run::join(scene_, pile_);

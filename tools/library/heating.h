@@ -17,7 +17,7 @@ class Heating {
  public:
   // Finds the contacts and assembles the balance of heat. Throws InputError for a scene without heat. A steady scene is solved
   // here.
-  Heating(const Scene& scene, const packing::Packing<dim>& packing);
+  Heating(Scene scene, const packing::Packing<dim>& packing);
 
   // To exactly `time` [s]. `progress` is told the time after every step and may throw to stop. Throws InputError for a steady
   // scene, and for a time that has passed.

@@ -1,10 +1,10 @@
 #include "tools/report/pictures.h"
 
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include "engine/base/check.h"
 #include "engine/output/render.h"
@@ -78,7 +78,7 @@ output::Picture picture_of(const run::RunFiles& files, const std::string& series
 Drawn still(const Workshop& workshop, const output::Picture& picture, const std::string& caption) {
   const auto png = workshop.file("picture.png");
   output::render(picture, png);
-  return {fmt::format("<img alt=\"{}\" src=\"{}\">", escaped(caption), data_url(png, "image/png")), caption};
+  return {fmt::format(R"(<img alt="{}" src="{}">)", escaped(caption), data_url(png, "image/png")), caption};
 }
 
 Drawn moving(const Workshop& workshop, output::Picture picture, const std::string& caption) {

@@ -24,7 +24,7 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 Json read_summary(const run::RunFiles& files) {
-  const Json summary = Json::parse(text_of(files.summary()), nullptr, false);
+  Json summary = Json::parse(text_of(files.summary()), nullptr, false);
   if (!summary.is_discarded() && summary.contains("status")) return summary;
   Problem problem;
   problem.key = "directory";
@@ -178,7 +178,7 @@ void add_stages(Page& page, const Json& summary) {
     rows.push_back(
         {escaped(text(stage, "name")), fmt::format("{:.3f}", seconds),
          fmt::format("{:.1f}", number(stage, "peak_memory_bytes") / 1e6),
-         fmt::format("<span class=\"bar\" style=\"width:{:.0f}px\"></span>", longest > 0 ? 240 * seconds / longest : 0)});
+         fmt::format(R"(<span class="bar" style="width:{:.0f}px"></span>)", longest > 0 ? 240 * seconds / longest : 0)});
   }
   page.table(rows);
 }

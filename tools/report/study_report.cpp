@@ -135,6 +135,7 @@ std::vector<Curve> curves(const std::vector<Row>& rows, const Axes& axes, std::s
     curve.y.push_back(y[i]);
   }
   std::vector<Curve> all;
+  all.reserve(found.size());
   for (auto& [value, curve] : found) all.push_back(std::move(curve));
   return all;
 }
@@ -180,7 +181,7 @@ std::string study_page(const std::filesystem::path& directory) {
   }
   std::sort(pictures.begin(), pictures.end());
   for (const auto& picture : pictures) {
-    page.figure_with(fmt::format("<img alt=\"\" src=\"{}\">", data_url(picture, "image/png")), picture.filename().string());
+    page.figure_with(fmt::format(R"(<img alt="" src="{}">)", data_url(picture, "image/png")), picture.filename().string());
   }
   if (std::filesystem::exists(directory / "ensembles.csv")) {
     add_table(page, "Ensembles", read_rows(directory / "ensembles.csv"));
