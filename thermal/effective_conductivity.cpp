@@ -21,6 +21,12 @@ std::string span_of(const Aabb<dim>& box) {
   return fmt::format("from ({:g}) to ({:g}) m", fmt::join(box.min(), ", "), fmt::join(box.max(), ", "));
 }
 
+// The trace of the tensor over its dimension [W/m/K].
+template <int dim>
+double mean_over_axes(const Conductivity& conductivity) {
+  return conductivity.value.constant().value() * conductivity.ratio.head<dim>().mean();
+}
+
 // Steady temperatures of the blocks in and around a window, under temperatures and flows of its own.
 template <int dim>
 class Sample {
@@ -60,7 +66,7 @@ class Sample {
     double sum = 0;
     for (const ElementPart& part : inside_) {
       const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[part.element]].body].material];
-      sum += material.conductivity->value.constant().value() * part.volume;
+      sum += mean_over_axes<dim>(*material.conductivity) * part.volume;
     }
     return sum / window_.volume();
   }

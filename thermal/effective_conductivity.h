@@ -21,7 +21,9 @@ struct EffectiveConductivity {
   std::optional<Tensor> lower;
   Point<dim> along = Point<dim>::Zero();  // per axis, between two plates [W/m/K]
   double solid_fraction = 0;              // of the window's volume [-]
-  double volume_mean = 0;                 // of the conductivity, voids at 0: no arrangement conducts better [W/m/K]
+  // Of the mean over the axes of the conductivity, voids at 0: in the mean over the axes no arrangement conducts better
+  // [W/m/K].
+  double volume_mean = 0;
 };
 
 struct ElementPart {

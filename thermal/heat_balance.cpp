@@ -110,15 +110,17 @@ Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::Vector
   return loss;
 }
 
+Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& temperature) {
+  if (!model.varying) return model.capacity;
+  const VaryingProperties& properties = *model.varying;
+  return properties.mass.cwiseProduct(at_nodes(properties, &VaryingProperties::specific_heat, temperature, value));
+}
+
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {
   Linearised result;
-  result.capacity = model_.capacity;
-  if (model_.varying) {
-    const VaryingProperties& properties = *model_.varying;
-    result.capacity = properties.mass.cwiseProduct(at_nodes(properties, &VaryingProperties::specific_heat, temperature, value));
-    if (!unit_flows_.empty()) {
-      result.conductivity = at_nodes(properties, &VaryingProperties::conductivity, temperature, value);
-    }
+  result.capacity = capacity_at(model_, temperature);
+  if (!unit_flows_.empty()) {
+    result.conductivity = at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, value);
   }
   result.loss = loss_to_surroundings(model_, temperature, drive);
   return result;

@@ -23,6 +23,9 @@ struct Linearised {
 // How much more heat each node loses to surroundings as it gets warmer [W/K].
 Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive);
 
+// C = dH/dT of each node [J/K].
+Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& temperature);
+
 class HeatBalance {
  public:
   explicit HeatBalance(const HeatModel& model, Sums sums = Sums::extended);  // refers to it

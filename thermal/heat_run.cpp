@@ -7,7 +7,9 @@
 
 #include "thermal/bookkeeper.h"
 #include "thermal/choose_scheme.h"
+#include "thermal/drive_defect.h"
 #include "thermal/fourth_order.h"
+#include "thermal/heat_balance.h"
 #include "thermal/problems.h"
 #include "thermal/stable_step.h"
 #include "thermal/step_grid.h"
@@ -123,7 +125,13 @@ class HeatRun::Implementation {
         continue;
       }
       const double dt = grid.step();
-      const Step step = scheme_.scheme->step(instant(grid.time()), dt);
+      const std::optional<Eigen::VectorXd> missed = missed_in(grid, bends);
+      if (missed && missed->lpNorm<Eigen::Infinity>() > allowed(state_.error) && grid.level() < StepGrid::max_level) {
+        grid.refine();
+        continue;
+      }
+      Step step = scheme_.scheme->step(instant(grid.time()), dt);
+      if (missed) step.error += *missed;
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
       if (!(step.local_error <= allowed(state_.error))) {
         refine(grid, step.local_error / allowed(state_.error));
@@ -146,6 +154,12 @@ class HeatRun::Implementation {
   static bool leaps(const StepGrid& grid, const TimeBends& bends) {
     constexpr std::size_t seen = 2;
     return grid.level() < StepGrid::max_level && bends.most_between(grid.time(), grid.time() + grid.step()) > seen;
+  }
+
+  // What the scheme's own estimate of a step does not see of jumps within it [K]; nothing if there are none.
+  [[nodiscard]] std::optional<Eigen::VectorXd> missed_in(const StepGrid& grid, const TimeBends& bends) const {
+    if (!bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
+    return drive_defect(model_, grid.time(), grid.step(), state_.temperature, capacity_at(model_, state_.temperature));
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.

@@ -66,25 +66,35 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
       return;
     }
     if (!function.varies_in_place()) {
-      seen_.push_back(bends_of(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one));
+      seen_.push_back({(end - begin) / steps_of_one, bends_of(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one)});
       return;
     }
     const Eigen::Index count = std::min(places.cols(), most_places);
     for (Eigen::Index i = 0; i < count; ++i) {
-      seen_.push_back(bends_of(function, places.col(i * places.cols() / count), begin, end, steps_of_many));
+      const Eigen::Vector3d place = places.col(i * places.cols() / count);
+      seen_.push_back({(end - begin) / steps_of_many, bends_of(function, place, begin, end, steps_of_many)});
     }
   });
+}
+
+std::size_t TimeBends::Seen::between(double begin, double end) const {
+  const auto first = std::upper_bound(times.begin(), times.end(), begin);
+  const auto last = std::lower_bound(first, times.end(), end);
+  return static_cast<std::size_t>(last - first);
 }
 
 std::size_t TimeBends::most_between(double begin, double end) const {
   std::size_t most = 0;
   for (const Function* table : tables_) most = std::max(most, table->bends_between(begin, end).value_or(0));
-  for (const std::vector<double>& times : seen_) {
-    const auto first = std::upper_bound(times.begin(), times.end(), begin);
-    const auto last = std::lower_bound(first, times.end(), end);
-    most = std::max(most, static_cast<std::size_t>(last - first));
-  }
+  for (const Seen& seen : seen_) most = std::max(most, seen.between(begin, end));
   return most;
+}
+
+bool TimeBends::any_between(double begin, double end) const {
+  return std::any_of(tables_.begin(), tables_.end(),
+                     [&](const Function* table) { return table->bends_between(begin, end).value_or(0) > 0; }) ||
+         std::any_of(seen_.begin(), seen_.end(),
+                     [&](const Seen& seen) { return seen.between(begin - seen.step, end + seen.step) > 0; });
 }
 
 }  // namespace scree::thermal

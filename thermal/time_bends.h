@@ -16,9 +16,20 @@ class TimeBends {
   // The most bends that a condition or a load has at one place, without those at the two times.
   [[nodiscard]] std::size_t most_between(double begin, double end) const;
 
+  // Whether any may lie between the two times: those of a formula are known to a step in time.
+  [[nodiscard]] bool any_between(double begin, double end) const;
+
  private:
+  // Of a formula at one place.
+  struct Seen {
+    double step;                // between looks [s]
+    std::vector<double> times;  // ascending [s]
+
+    [[nodiscard]] std::size_t between(double begin, double end) const;
+  };
+
   std::vector<const Function*> tables_;
-  std::vector<std::vector<double>> seen_;  // of each formula at each place: times, ascending [s]
+  std::vector<Seen> seen_;
 };
 
 }  // namespace scree::thermal

@@ -251,40 +251,6 @@ TEST(HeatRun, StepsDoNotDependOnHowOftenTheRunIsStopped) {
   EXPECT_EQ(often.state().temperature, once.state().temperature);
 }
 
-// An hour between two outputs of a source in a slab of 1 m2, one metre deep.
-HeatState after_an_hour_of(const Function& source) {
-  const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
-  HeatOptions options = options_for(mesh, 300);
-  options.sources.push_back({test::on(BodyId{0}, between_x(0, 1)), source, "pulse", {}});
-  const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
-  HeatRun run(model, times(3600, 3600, 0.1));
-  run.advance_to(3600);
-  return run.state();
-}
-
-// 1e7 W/m3 for 10 s of an hour come in, whatever the output interval leaps over.
-TEST(HeatRun, APulseInATableIsNotLeaptOver) {
-  for (const double ramp : {5.0, 1e-3}) {
-    const HeatState state = after_an_hour_of(Function::from_table(
-        LinearTable({0, 2000 - ramp, 2000, 2010 - ramp, 2010, 3600}, {0, 0, 1e7, 1e7, 0, 0}), ValueRule{}));
-    EXPECT_NEAR(state.ledger.by_applied[0] / 1e8, 1, 0.01) << ramp;
-    EXPECT_LT(state.steps, 200);
-  }
-}
-
-TEST(HeatRun, APulseInAFormulaIsNotLeaptOver) {
-  const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
-  const auto heat_of = [&](const std::string& formula) {
-    const HeatState state = after_an_hour_of(Function::from_expression(formula, unit, ValueRule{}));
-    EXPECT_LT(state.steps, 1000) << formula;
-    return state.ledger.by_applied[0];
-  };
-  EXPECT_NEAR(heat_of("1e7*(t > 2000)*(t < 2010)") / 1e8, 1, 0.01);
-  EXPECT_NEAR(heat_of("1e7*exp(-((t - 2000)/20)^2)") / (1e7 * 20 * std::sqrt(std::numbers::pi)), 1, 0.01);
-  EXPECT_NEAR(heat_of("1e6*(t > 1000)*(t < 1200)*(x + 1)") / 3e8, 1, 0.01) << "another value at every place";
-  EXPECT_NEAR(heat_of("1e6*(sin(2*pi*t/90) > 0)") / 1.8e9, 1, 0.01) << "on for 45 s and off for 45 s, forty times";
-}
-
 // What comes in at one end leaves at the other, under one name.
 TEST(HeatRun, HeatThatComesInAndLeavesUnderOneNameIsTurnedOverAllTheSame) {
   const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});

@@ -107,6 +107,18 @@ TYPED_TEST(Homogenised, SolidRockIsItselfInAWindowThatFollowsNoFaces) {
   for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis], k, 1e-9);
 }
 
+TYPED_TEST(Homogenised, AnisotropicRockHasTheMeanOfItsAxes) {
+  constexpr int dim = TypeParam::value;
+  auto rock = jointed_rock<dim>(1, beta);
+  Table<MaterialId, Material> materials = test::rock_only();
+  materials[MaterialId{0}].conductivity->ratio = {1, 2, 6};
+  rock.model = make_heat_model(rock.mesh, materials, rock.contacts, test::options_for(rock.mesh, 300));
+  const auto found = effective_conductivity(rock.mesh, materials, rock.model, window<dim>(0, edge));
+  EXPECT_NEAR(found.volume_mean, k * (dim == 2 ? 1.5 : 3), 1e-12);
+  EXPECT_NEAR(found.upper.trace() / dim, found.volume_mean, 1e-9);
+  EXPECT_NEAR(found.along[1], 2 * k, 1e-9);
+}
+
 TYPED_TEST(Homogenised, AWindowThatReachesBeyondTheRockIsFilledByItsShare) {
   constexpr int dim = TypeParam::value;
   const auto rock = jointed_rock<dim>(1, beta);

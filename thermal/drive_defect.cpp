@@ -1,0 +1,89 @@
+#include "thermal/drive_defect.h"
+
+#include <cmath>
+
+#include "thermal/exchange.h"
+#include "thermal/sdirk2.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Times in a step at which the integral looks at what drives it: enough to know the defect of a jump to an eighth.
+constexpr int looks = 16;
+
+class Defect {
+ public:
+  Defect(double begin, double length) : begin_(begin), length_(length) {}
+
+  // Of f(t): the quadrature's less the integral.
+  template <class Value>
+  double operator()(const Value& f) const {
+    using namespace sdirk2;
+    double integral = 0;
+    for (int i = 0; i < looks; ++i) integral += f(begin_ + (i + 0.5) / looks * length_) / looks;
+    const double parabola =
+        (1 - parabola1 - parabola2) * f(begin_) + parabola1 * f(begin_ + gamma * length_) + parabola2 * f(begin_ + length_);
+    return length_ * (parabola - integral);
+  }
+
+ private:
+  double begin_;
+  double length_;
+};
+
+// value(place) at each node, evaluated once where it is the same everywhere.
+template <class Value>
+Eigen::VectorXd at_nodes(const NodeShares& on, bool varies_in_place, const Value& value) {
+  const auto count = static_cast<Eigen::Index>(on.nodes.size());
+  if (count == 0) return {};
+  if (!varies_in_place) return Eigen::VectorXd::Constant(count, value(Eigen::Vector3d(on.places.col(0))));
+  return Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index i) { return value(Eigen::Vector3d(on.places.col(i))); });
+}
+
+void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
+  if (!load.density.varies_in_time()) return;
+  const Eigen::VectorXd missed = at_nodes(load.on, load.density.varies_in_place(), [&](const Eigen::Vector3d& place) {
+    return defect([&](double time) { return load.density(place, time); });
+  });
+  for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
+    heat[load.on.nodes[i].value()] += load.on.shares[i] * missed[static_cast<Eigen::Index>(i)];
+  }
+}
+
+// Exchanged heat is the coefficient times the difference of a power of both temperatures, so that what is missed is made of
+// two defects: that of what comes in, and that of the coefficient.
+void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& temperature, Eigen::VectorXd& heat) {
+  const Function& coefficient = exchange.coefficient;
+  const Function& surroundings = exchange.surroundings;
+  if (!coefficient.varies_in_time() && !surroundings.varies_in_time()) return;
+  const bool varies_in_place = coefficient.varies_in_place() || surroundings.varies_in_place();
+  const auto potential = [&](double t) {
+    return exchange.law == Exchange::Law::convection ? t : stefan_boltzmann * t * t * t * std::abs(t);
+  };
+  const Eigen::VectorXd in = at_nodes(exchange.on, varies_in_place, [&](const Eigen::Vector3d& place) {
+    return defect([&](double time) { return coefficient(place, time) * potential(surroundings(place, time)); });
+  });
+  const Eigen::VectorXd out = at_nodes(exchange.on, varies_in_place, [&](const Eigen::Vector3d& place) {
+    return defect([&](double time) { return coefficient(place, time); });
+  });
+  for (std::size_t i = 0; i < exchange.on.nodes.size(); ++i) {
+    const auto row = exchange.on.nodes[i].value();
+    const auto at = static_cast<Eigen::Index>(i);
+    heat[row] += exchange.on.shares[i] * (in[at] - out[at] * potential(temperature[row]));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd drive_defect(const HeatModel& model, double begin, double length, const Eigen::VectorXd& temperature,
+                             const Eigen::VectorXd& capacity) {
+  const Defect defect(begin, length);
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
+  for (const Load& load : model.loads) add(load, defect, heat);
+  for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, heat);
+  for (const NodeId node : model.fixed_nodes) heat[node.value()] = 0;
+  return heat.cwiseQuotient(capacity);
+}
+
+}  // namespace scree::thermal
