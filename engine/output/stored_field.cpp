@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <vtkDataArray.h>
 #include <vtkGenericCell.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStaticCellLocator.h>
@@ -21,8 +22,9 @@ namespace scree::output {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of the mesh's extent: nodes this near to each other are the same
-constexpr double inwards = 1e-6;   // of a block's extent, see the header
+constexpr double rounding = 1e-9;   // of the mesh's extent: nodes this near to each other are the same
+constexpr double inwards = 1e-6;    // of a block's extent, see the header
+constexpr double almost_in = 1e-6;  // of a cell: a point that far outside lies in it, for rounding
 
 [[noreturn]] void refuse(const StoredField& stored, const std::string& value, const std::string& rule,
                          const std::string& suggestion) {
@@ -93,11 +95,11 @@ class Lookup {
   Found at(const Eigen::Vector3d& point, double slack) {
     std::vector<double> weights(static_cast<std::size_t>(std::max(grid_.GetMaxCellSize(), 1)));
     std::array<double, 3> parametric{};
-    Eigen::Vector3d nearest = point;
     int part = 0;
-    vtkIdType id = locator_->FindCell(nearest.data(), slack * slack, cell_, parametric.data(), weights.data());
+    vtkIdType id = cell_around(point, slack, weights);
     Found found;
     if (id < 0) {
+      Eigen::Vector3d nearest = point;
       double squared = 0;
       const double radius = std::max(reach_, slack);
       if (locator_->FindClosestPointWithinRadius(const_cast<double*>(point.data()), radius, nearest.data(), cell_, id, part,
@@ -109,6 +111,8 @@ class Lookup {
       std::array<double, 3> closest{};
       grid_.GetCell(id, cell_);
       cell_->EvaluatePosition(nearest.data(), closest.data(), part, parametric.data(), squared, weights.data());
+    } else {
+      grid_.GetCell(id, cell_);
     }
     for (int i = 0; i < cell_->GetNumberOfPoints(); ++i) {
       found.value += weights[static_cast<std::size_t>(i)] * values_.GetTuple1(cell_->GetPointId(i));
@@ -117,9 +121,38 @@ class Lookup {
   }
 
  private:
+  // The cell that holds the point, and its weights; -1: none. VTK's own search takes the first cell that holds it but for a
+  // thousandth of the cell, which across a joint may be another block's.
+  vtkIdType cell_around(const Eigen::Vector3d& point, double slack, std::vector<double>& weights) {
+    std::array<double, 6> bounds{};
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds[2 * axis] = point[axis] - slack;
+      bounds[2 * axis + 1] = point[axis] + slack;
+    }
+    locator_->FindCellsWithinBounds(bounds.data(), near_);
+    vtkIdType best = -1;
+    double least = almost_in;
+    std::vector<double> of_cell(weights.size());
+    for (vtkIdType i = 0; i < near_->GetNumberOfIds(); ++i) {
+      std::array<double, 3> closest{}, parametric{};
+      double squared = 0;
+      int part = 0;
+      grid_.GetCell(near_->GetId(i), cell_);
+      cell_->EvaluatePosition(const_cast<double*>(point.data()), closest.data(), part, parametric.data(), squared,
+                              of_cell.data());
+      const double out = cell_->GetRepresentativeCell()->GetParametricDistance(parametric.data());
+      if (out > least || (best >= 0 && out == least)) continue;
+      least = out;
+      best = near_->GetId(i);
+      weights = of_cell;
+    }
+    return best;
+  }
+
   vtkUnstructuredGrid& grid_;
   vtkDataArray& values_;
   double reach_;
+  vtkNew<vtkIdList> near_;
   vtkNew<vtkStaticCellLocator> locator_;
   vtkNew<vtkGenericCell> cell_;
 };

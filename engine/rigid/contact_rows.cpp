@@ -1,13 +1,12 @@
 #include "engine/rigid/contact_rows.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace scree::rigid {
 
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr std::size_t line = 64;  // bytes that memory gives at once
 
 using Bodies = std::array<BodyChange*, 2>;  // null: fixed
@@ -28,14 +27,40 @@ Bodies bodies_of(const std::array<int, 2>& ids, std::vector<BodyChange>& bodies)
   }
 }
 
-[[gnu::always_inline]] inline void solve(Row& row, const Bodies& bodies, double low, double high) {
+// The impulse that would give the row by itself what it wants.
+[[gnu::always_inline]] inline double asked(const Row& row, const Bodies& bodies) {
   const auto& [first, second] = bodies;
   double change = 0;
   if (first != nullptr) change += row.direction.dot(first->linear) + row.moment[0].dot(first->angular);
   if (second != nullptr) change += row.moment[1].dot(second->angular) - row.direction.dot(second->linear);
-  const double sum = std::min(std::max(row.applied + row.wanted - change * row.scale, low), high);
-  push(row, bodies, sum - row.applied);
-  row.applied = sum;
+  return row.applied + row.wanted - change * row.scale;
+}
+
+[[gnu::always_inline]] inline void set(Row& row, const Bodies& bodies, double impulse) {
+  push(row, bodies, impulse - row.applied);
+  row.applied = impulse;
+}
+
+[[gnu::always_inline]] inline void press(Row& row, const Bodies& bodies) {
+  set(row, bodies, std::max(asked(row, bodies), 0.0));
+}
+
+// Coulomb's cone: both directions together within `most`. Bodies that stick get what each direction asks for. Where they slip,
+// both directions take a step of the same length per speed, so that the impulse ends up against the slip whatever its heading.
+[[gnu::always_inline]] inline void rub(std::array<Row, 2>& friction, const Bodies& bodies, double most) {
+  double first = asked(friction[0], bodies);
+  double second = asked(friction[1], bodies);
+  if (first * first + second * second > most * most) {
+    const double step = std::min(friction[0].scale, friction[1].scale);
+    first = friction[0].applied + (first - friction[0].applied) * (step / friction[0].scale);
+    second = friction[1].applied + (second - friction[1].applied) * (step / friction[1].scale);
+    const double size = std::sqrt(first * first + second * second);
+    const double part = size > most ? most / size : 1;
+    first *= part;
+    second *= part;
+  }
+  set(friction[0], bodies, first);
+  set(friction[1], bodies, second);
 }
 
 // The two rows that will be solved after the next two.
@@ -53,25 +78,24 @@ bool share_a_body(const ContactRow& a, const ContactRow& b) {
          same(a.bodies[1], b.bodies[1]);
 }
 
+// Whether its friction may be anything but zero: one whose normal impulse has just gone must give up its friction, too.
+[[gnu::always_inline]] inline bool solve_normal(ContactRow& row, const Bodies& pair) {
+  const bool pressed = row.normal.applied > 0;
+  press(row.normal, pair);
+  return pressed || row.normal.applied > 0;
+}
+
 void solve_one(ContactRow& row, std::vector<BodyChange>& bodies) {
   const Bodies pair = bodies_of(row.bodies, bodies);
-  solve(row.normal, pair, 0, unlimited);
-  if (row.normal.applied <= 0) return;
-  const double most = row.coefficient * row.normal.applied;
-  for (Row& friction : row.friction) solve(friction, pair, -most, most);
+  if (solve_normal(row, pair)) rub(row.friction, pair, row.coefficient * row.normal.applied);
 }
 
 // Contacts without a common body at once: neither waits for the other, and the bits are those of one after the other.
 void solve_two(ContactRow& a, ContactRow& b, std::vector<BodyChange>& bodies) {
   const Bodies of_a = bodies_of(a.bodies, bodies), of_b = bodies_of(b.bodies, bodies);
-  solve(a.normal, of_a, 0, unlimited);
-  solve(b.normal, of_b, 0, unlimited);
-  const bool rubs_a = a.normal.applied > 0, rubs_b = b.normal.applied > 0;
-  const double most_a = a.coefficient * a.normal.applied, most_b = b.coefficient * b.normal.applied;
-  for (std::size_t i = 0; i < a.friction.size(); ++i) {
-    if (rubs_a) solve(a.friction[i], of_a, -most_a, most_a);
-    if (rubs_b) solve(b.friction[i], of_b, -most_b, most_b);
-  }
+  const bool rubs_a = solve_normal(a, of_a), rubs_b = solve_normal(b, of_b);
+  if (rubs_a) rub(a.friction, of_a, a.coefficient * a.normal.applied);
+  if (rubs_b) rub(b.friction, of_b, b.coefficient * b.normal.applied);
 }
 
 }  // namespace
@@ -98,7 +122,7 @@ void solve_contacts(std::span<ContactRow> rows, std::vector<BodyChange>& bodies)
 }
 
 void solve_overlaps(std::span<OverlapRow> rows, std::vector<BodyChange>& bodies) {
-  for (OverlapRow& row : rows) solve(row.normal, bodies_of(row.bodies, bodies), 0, unlimited);
+  for (OverlapRow& row : rows) press(row.normal, bodies_of(row.bodies, bodies));
 }
 
 }  // namespace scree::rigid

@@ -80,9 +80,12 @@ ContactRow contact_row(const btManifoldPoint& point, const Bodies& bodies, std::
   row.coefficient = point.m_combinedFriction;
   row.bodies = ids;
   row.normal.applied = point.m_appliedImpulse;
+  // Turned into new directions it may be a hair more.
   const double most = row.coefficient * point.m_appliedImpulse;
-  row.friction[0].applied = std::clamp(point.m_appliedImpulseLateral1, -most, most);
-  row.friction[1].applied = std::clamp(point.m_appliedImpulseLateral2, -most, most);
+  const double size = std::hypot(point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2);
+  const double part = size > most ? most / size : 1;
+  row.friction[0].applied = part * point.m_appliedImpulseLateral1;
+  row.friction[1].applied = part * point.m_appliedImpulseLateral2;
   return row;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/rigid/contact_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,19 @@ TEST(ContactRows, LetFrictionStopASlowSlipAndOnlyBrakeAFastOne) {
   }
 }
 
+// Coulomb's cone: the size of the friction is that of its limit, and its heading against the slip.
+TEST(ContactRows, BrakeASlipAgainstItsHeading) {
+  for (const double angle : {0.1, 0.7, 2.0, 4.0}) {
+    std::vector<BodyChange> bodies(1);
+    bodies[0].inverse_mass = 1 / mass_first;
+    const Vector3d slip = 40 * Vector3d(std::cos(angle), std::sin(angle), 0);
+    std::vector<ContactRow> rows{contact(7, slip.x(), {0, -1}, 1 / mass_first)};
+    rows[0].friction[1] = central({0, 1, 0}, slip.y(), 1 / mass_first);
+    for (int pass = 0; pass < 3; ++pass) solve_contacts(rows, bodies);
+    EXPECT_LT((bodies[0].linear - Vector3d(0, 0, 7) - 0.5 * 7 * slip.normalized()).norm(), 1e-13) << angle;
+  }
+}
+
 TEST(ContactRows, DoNotPullBodiesThatPart) {
   std::vector<BodyChange> bodies(2);
   for (auto& body : bodies) body.inverse_mass = 1;
@@ -61,6 +75,27 @@ TEST(ContactRows, DoNotPullBodiesThatPart) {
   solve_contacts(rows, bodies);
   EXPECT_EQ(rows[0].normal.applied, 0);
   for (const auto& body : bodies) EXPECT_EQ(body.linear.norm() + body.angular.norm(), 0);
+}
+
+// They start from the impulses of the last step, when they still pressed and rubbed. Alone, and two at once.
+TEST(ContactRows, TakeTheFrictionOfBodiesThatPartAway) {
+  for (const int count : {1, 2}) {
+    std::vector<BodyChange> bodies(count);
+    std::vector<ContactRow> rows;
+    for (int i = 0; i < count; ++i) {
+      bodies[i].inverse_mass = 1;
+      rows.push_back(contact(-2, 1, {i, -1}, 1));
+      rows[i].normal.applied = 5;
+      rows[i].friction[0].applied = 2;
+    }
+    apply_impulses(rows, bodies);
+    for (int pass = 0; pass < 2; ++pass) solve_contacts(rows, bodies);
+    for (const ContactRow& row : rows) {
+      EXPECT_EQ(row.normal.applied, 0);
+      EXPECT_EQ(row.friction[0].applied, 0);
+    }
+    for (const BodyChange& body : bodies) EXPECT_LT(body.linear.norm(), 1e-15);
+  }
 }
 
 TEST(ContactRows, OfAChainOfBodiesConvergeToTheMotionOfOne) {

@@ -1,0 +1,87 @@
+// Coulomb's friction whatever the heading, and a fall to which nothing gives energy.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/rigid/settle.h"
+#include "tests/rigid/blocks.h"
+
+namespace scree::rigid {
+namespace {
+
+using Eigen::Vector3d;
+using testing::add_box;
+using testing::material;
+
+constexpr double g = 9.81;
+
+SettleOptions for_time(double limit) {
+  SettleOptions options;
+  options.limit = limit;
+  options.rest_speed = 0;
+  return options;
+}
+
+// A block on a level plate under a gravity that pulls along it, too: what a slope of this angle does, down the heading. Its way
+// [m].
+Vector3d way_on_slope(double angle, double heading, double friction, double time) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {8, 8, 0.1}, {0, 0, -0.05}, true);
+  add_box(mesh, {0.2, 0.2, 0.05}, {0, 0, 0.025}, false);
+  SettleOptions options = for_time(time);
+  options.gravity = g * Vector3d(std::sin(angle) * std::cos(heading), std::sin(angle) * std::sin(heading), -std::cos(angle));
+  const Vector3d start(0, 0, 0.025);
+  return settle(mesh, material(friction), options).poses[BlockId{1}] * start - start;
+}
+
+TEST(Friction, IsTheSameDownEveryHeading) {
+  const double angle = 25 * M_PI / 180;
+  for (const double degrees : {0.0, 22.5, 30.0, 45.0, 60.0, 100.0}) {
+    const double heading = degrees * M_PI / 180;
+    const Vector3d down(std::cos(heading), std::sin(heading), 0);
+    const Vector3d held = way_on_slope(angle, heading, 1.02 * std::tan(angle), 1);
+    EXPECT_LT(held.norm(), 1e-4) << degrees;
+    const double friction = 0.3;
+    const Vector3d slid = way_on_slope(angle, heading, friction, 1);
+    const double way = 0.5 * g * (std::sin(angle) - friction * std::cos(angle));
+    EXPECT_NEAR(slid.dot(down) / way, 1, 0.01) << degrees;
+    EXPECT_LT((slid - slid.dot(down) * down).norm(), 0.002 * way) << degrees;
+  }
+}
+
+TEST(Friction, StopsABlockAfterTheSameWayWhateverItsHeading) {
+  const double friction = 0.5, speed = 2;
+  for (const double degrees : {0.0, 30.0, 45.0}) {
+    const Vector3d way(std::cos(degrees * M_PI / 180), std::sin(degrees * M_PI / 180), 0);
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+    add_box(mesh, {0.2, 0.2, 0.05}, {0, 0, 0.025}, false, speed * way);
+    const Pose end = settle(mesh, material(friction), {}).poses[BlockId{1}];
+    const double distance = speed * speed / (2 * friction * g);
+    EXPECT_NEAR((end * Vector3d(0, 0, 0.025)).dot(way) / distance, 1, 0.02) << degrees;
+  }
+}
+
+// Nothing gives it energy, so its middle never gets higher than where it was let go.
+TEST(Rebound, ACubeThatTumblesAndReboundsNeverClimbs) {
+  const Vector3d axis = Vector3d(1, 0.3, 0.2).normalized();
+  for (const double restitution : {0.7, 0.9}) {
+    for (const double step : {1e-3, 4e-3}) {
+      mesh::BlockMesh<3> mesh;
+      add_box(mesh, {40, 40, 0.2}, {0, 0, -0.1}, true);
+      const Pose start{{0, 0, 0.3}, Eigen::Quaterniond(Eigen::AngleAxisd(20 * M_PI / 180, axis))};
+      add_box(mesh, {0.2, 0.2, 0.2}, start, false);
+      SettleOptions options = for_time(4);
+      options.step = step;
+      options.frame_interval = 0.01;
+      double highest = 0;
+      settle(mesh, material(0.6, restitution), options, [&](double, const Table<BlockId, Pose>& poses) {
+        highest = std::max(highest, (poses[BlockId{1}] * start.translation).z());
+      });
+      EXPECT_LE(highest, start.translation.z() + 1e-9) << restitution << " " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scree::rigid
