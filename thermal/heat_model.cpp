@@ -11,6 +11,7 @@
 #include "thermal/boundary.h"
 #include "thermal/choose_lumped.h"
 #include "thermal/fourth_order.h"
+#include "thermal/held_joints.h"
 #include "thermal/joint_conduction.h"
 #include "thermal/problems.h"
 #include "thermal/row_numbering.h"
@@ -204,6 +205,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
                           const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
                           const HeatOptions& options) {
   HeatModel model = unjoined(mesh, materials, options, {});
+  check_held_joints(joints, model);
   set_varying(mesh, materials, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
   // Fourth order knows no neighbours but its own, and a node of two materials no one curve.

@@ -122,7 +122,7 @@ TYPED_TEST(TiedNodes, AreNoneWhereEachSideIsHeldByItsOwnCondition) {
   const auto mesh = two_bars<dim>(2);
   HeatOptions options = options_of(mesh, PerfectJoint{});
   options.boundaries.push_back(test::hold(BodyId{0}, 0.2, 373.15, "end of the first"));
-  options.boundaries.push_back(test::hold(BodyId{1}, 0.2, 300, "start of the second"));
+  options.boundaries.push_back(test::hold(BodyId{1}, 0.2, 373.15, "start of the second"));
   EXPECT_EQ(model_of(mesh, options).tied_nodes, 0U);
 }
 
@@ -163,6 +163,28 @@ TYPED_TEST(TiedNodes, PassTheFluxOfTheElementsBesideThem) {
     flow += part;
   }
   EXPECT_NEAR(std::abs(flow), 50 * 4.0 * std::pow(0.1, dim - 1), 1e-10);
+}
+
+// What would flow there grows with every refinement of the mesh.
+TYPED_TEST(TiedNodes, APerfectJointHeldAtTwoTemperaturesIsRefused) {
+  constexpr int dim = TypeParam::value;
+  auto right = test::bar<dim>(0.1, 2, 3, 0.1);
+  right.low[0] = 0.1;
+  for (const int cells : {2, 3}) {  // faces that do not match, and faces that do
+    const auto mesh = test::slab_mesh<dim>({test::bar<dim>(0.1, 2, cells, 0.1), right});
+    for (const double temperature : {300.0, 400.0}) {
+      HeatOptions options = test::options_for(mesh, 300);
+      options.joint.law = PerfectJoint{};
+      options.boundaries.push_back(test::hold(BodyId{0}, 0.1, 400, "left"));
+      options.boundaries.push_back(test::hold(BodyId{1}, 0.1, temperature, "right"));
+      const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+      if (temperature == 400) {
+        EXPECT_NO_THROW(make_heat_model(mesh, test::rock_only(), contacts, options)) << cells;
+      } else {
+        EXPECT_THROW(make_heat_model(mesh, test::rock_only(), contacts, options), InputError) << cells;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tools/run/run_scene.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -48,6 +49,12 @@ void say_costs(const std::vector<StageCost>& costs, Progress& progress) {
   }
 }
 
+template <int dim>
+std::size_t free_blocks(const mesh::BlockMesh<dim>& mesh) {
+  return static_cast<std::size_t>(std::count_if(mesh.blocks.begin(), mesh.blocks.end(),
+                                                [&](const mesh::Block& block) { return !mesh.bodies[block.body].fixed; }));
+}
+
 // Runs the stages the scene names and adds what they found to the summary.
 template <int dim>
 Ending run_stages(RunContext& context, Json& summary) {
@@ -61,7 +68,10 @@ Ending run_stages(RunContext& context, Json& summary) {
     }
   }
   if (outcome.packing.settled) {
-    auto reasons = unsound(scene, *outcome.packing.settled);
+    const std::size_t lost = outcome.packing.settled->lost_blocks.size();
+    if (lost > 0)
+      context.progress.note(fmt::format("lost: {} blocks left the scene; settle.lost of the summary names them", lost));
+    auto reasons = unsound(scene, *outcome.packing.settled, free_blocks(outcome.packing.mesh));
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
   if (!scene.heat) return {"complete", 0, {}};

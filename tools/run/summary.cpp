@@ -209,7 +209,7 @@ void add_stages(Json& summary, const std::vector<StageCost>& costs) {
   summary["stages"] = std::move(stages);
 }
 
-std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report) {
+std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report, std::size_t free_blocks) {
   // Whoever names a packing file accepts it as it is; its figures stand in the summary.
   if (!scene.settle) return {};
   std::vector<std::string> reasons;
@@ -226,6 +226,10 @@ std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport
         fmt::format("a block was pressed into another by {:.3g} of its size during the fall: one may have passed through the "
                     "other. Lower settle.step, raise settle.iterations, or make masses less unlike",
                     report.deepest_overlap));
+  }
+  if (free_blocks > 0 && report.lost_blocks.size() == free_blocks) {
+    reasons.push_back("every block that could move was lost: nothing holds them up. Put a fixed body below them");
+    return reasons;
   }
   if (report.at_rest || scene.settle->accept_moving) return reasons;
   reasons.push_back(

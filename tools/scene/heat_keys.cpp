@@ -16,7 +16,10 @@ constexpr auto vector = Count::per_dimension;
 // Where a region below `parent` ends.
 Keys within(const std::string& parent) {
   return {
-      row(parent + ".within", section, "An axis-aligned box of space that holds the part meant.").otherwise("the whole body"),
+      row(parent + ".within", section,
+          "An axis-aligned box of space that holds the part meant: nodes, faces with all their corners, elements by their "
+          "centre.")
+          .otherwise("the whole body"),
       row(parent + ".within.low", quantity, "Its corner with the least coordinates.", q::length).count(vector).required(),
       row(parent + ".within.high", quantity, "Its corner with the largest coordinates.", q::length).count(vector).required(),
   };

@@ -1,0 +1,13 @@
+// Perfect joints whose two sides are held.
+#pragma once
+
+#include "thermal/heat_model.h"
+
+namespace scree::thermal {
+
+// Throws InputError for a perfect joint that is held at different temperatures on its two sides as the run begins: the heat
+// that would flow there has no bound, and what came out would be that of the mesh.
+template <int dim>
+void check_held_joints(const JointConduction<dim>& joints, const HeatModel& model);
+
+}  // namespace scree::thermal
