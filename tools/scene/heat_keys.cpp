@@ -53,14 +53,15 @@ Keys boundary_keys() {
           .required()
           .choice("condition"),
       row("heat.boundaries[].convection", section,
-          "Exchange h (T_s - T) with the surroundings, through every face in the part.")
+          "Exchange h (T_s - T) with the surroundings, through every face in the part, covered by other blocks or not.")
           .required()
           .choice("condition"),
       row("heat.boundaries[].convection.coefficient", quantity, "h.", q::heat_transfer, not_negative)
           .depends(Depends::on_place_and_time)
           .required(),
       surroundings("heat.boundaries[].convection"),
-      row("heat.boundaries[].radiation", section, "Exchange sigma epsilon (T_s^4 - T^4), through every face in the part.")
+      row("heat.boundaries[].radiation", section,
+          "Exchange sigma epsilon (T_s^4 - T^4), through every face in the part, covered by other blocks or not.")
           .required()
           .choice("condition"),
       row("heat.boundaries[].radiation.emissivity", quantity, "epsilon.", q::number, Range{.low = 0, .high = 1})
