@@ -50,8 +50,8 @@ void check_anchors(const HeatModel& model) {
   }
   if (loose.empty()) return;
   throw InputError(problem(
-      "heat.steady", fmt::format("{} blocks of {}", loose.size(), fmt::join(bodies, ", ")),
-      fmt::format("must all have a path to a held temperature or to surroundings; these have none{}",
+      "heat.steady", fmt::format("true, with {} blocks of {}", loose.size(), fmt::join(bodies, ", ")),
+      fmt::format("must give every block a path to a held temperature or to surroundings; these have none{}",
                   load == 0 ? std::string() : fmt::format(", and the {:g} W put into them cannot leave", load)),
       "Hold a temperature or let them lose heat, let them touch what does, leave the bodies out, or run in time instead"));
 }

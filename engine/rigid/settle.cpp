@@ -93,6 +93,7 @@ class Settling {
  private:
   [[nodiscard]] double time() const { return static_cast<double>(half_steps_) * options_.step / 2; }
   Motion advance(double viscous);
+  [[nodiscard]] bool has_slowed(const Motion& motion, double viscous) const;
 
   const mesh::BlockMesh<3>& mesh_;
   const SettleOptions& options_;
@@ -104,6 +105,11 @@ class Settling {
   double deepest_overlap_ = 0;
   std::vector<BlockId> lost_;
 };
+
+// Blocks that have only begun to move are slow, too: drag takes 1/c to act.
+bool Settling::has_slowed(const Motion& motion, double viscous) const {
+  return time() >= 1 / viscous && motion.rms_speed < slow_under_drag * options_.gravity.norm() / viscous;
+}
 
 Motion Settling::advance(double viscous) {
   if (world_.hanging() > 0) {
@@ -136,7 +142,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     frames.offer(world_, time());
     const bool rest = watch.observe(world_, motion, time());
     report.at_rest = rest && viscous == 0 && world_.hanging() == 0;
-    if (viscous > 0 && world_.hanging() == 0 && motion.rms_speed < slow_under_drag * options_.gravity.norm() / viscous) {
+    if (viscous > 0 && world_.hanging() == 0 && has_slowed(motion, viscous)) {
       viscous = 0;
       halved_ = true;
       world_.scale_impulses(0.5);

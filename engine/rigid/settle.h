@@ -14,8 +14,8 @@ struct SettleOptions {
   double step = 1.0 / 240;               // [s]
   double local_damping = 0;              // Cundall's local damping factor [-], in [0, 1)
   // Drag, per mass [1/s]: a block falls no faster than gravity over this. It is taken away once all blocks were let go and
-  // their root mean square speed is a fiftieth of that, so the pile comes to rest without it, and in half
-  // steps: slopes at their limit shed block after block on coarser ones. At most 1 / step.
+  // their root mean square speed is a fiftieth of that, though not before it had the time to act, 1/c, so the pile comes to
+  // rest without it, and in half steps: slopes at their limit shed block after block on coarser ones. At most 1 / step.
   double viscous_damping = 0;
   // Blocks are let go one by one, evenly over this time [s], from the lower rim of the load to the middle of its top: in the
   // order of height less distance from the vertical through its centre of mass. The others hang where they were meshed, and

@@ -24,11 +24,12 @@ SettleOptions for_time(double limit) {
 
 // A block on a level plate under a gravity that pulls along it, too: what a slope of this angle does, down the heading. Its way
 // [m].
-Vector3d way_on_slope(double angle, double heading, double friction, double time) {
+Vector3d way_on_slope(double angle, double heading, double friction, double time, double drag = 0) {
   mesh::BlockMesh<3> mesh;
   add_box(mesh, {8, 8, 0.1}, {0, 0, -0.05}, true);
   add_box(mesh, {0.2, 0.2, 0.05}, {0, 0, 0.025}, false);
   SettleOptions options = for_time(time);
+  options.viscous_damping = drag;
   options.gravity = g * Vector3d(std::sin(angle) * std::cos(heading), std::sin(angle) * std::sin(heading), -std::cos(angle));
   const Vector3d start(0, 0, 0.025);
   return settle(mesh, material(friction), options).poses[BlockId{1}] * start - start;
@@ -47,6 +48,14 @@ TEST(Friction, IsTheSameDownEveryHeading) {
     EXPECT_NEAR(slid.dot(down) / way, 1, 0.01) << degrees;
     EXPECT_LT((slid - slid.dot(down) * down).norm(), 0.002 * way) << degrees;
   }
+}
+
+// dv/dt = g (sin - mu cos) - c v.
+TEST(Friction, OfABlockThatStartsAtRestLeavesDragItsPart) {
+  const double angle = 25 * M_PI / 180, friction = 0.3, drag = 2;
+  const double slid = way_on_slope(angle, 0, friction, 1, drag).x();
+  const double end_speed = g * (std::sin(angle) - friction * std::cos(angle)) / drag;
+  EXPECT_NEAR(slid / (end_speed * (1 - (1 - std::exp(-drag)) / drag)), 1, 0.02);
 }
 
 TEST(Friction, StopsABlockAfterTheSameWayWhateverItsHeading) {
