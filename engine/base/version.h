@@ -13,8 +13,8 @@ struct LibraryVersion {
   std::string_view version;
 };
 
-// The project's version, followed in a git checkout by the commit ("0.1.0+g1a2b3c4", "-dirty" with local changes), as it was
-// when the build was last configured.
+// The project's version, followed in a git checkout by the commit ("0.1.0+g1a2b3c4", "-dirty" with local changes when the build
+// was configured for it).
 std::string_view version();
 
 // "Release" and the like: the figures of a summary mean little without it.

@@ -50,7 +50,9 @@ Keys root_keys() {
   return {
       row("title", text, "What the scene shows.").fallback("\"\""),
       row("dimension", word, "Space: 2 for triangles of unit thickness, 3 for tetrahedra.").words({"2", "3"}).fallback("3"),
-      row("packing", path, "Packing file to start from, instead of settling.").choice("start"),
+      row("packing", path,
+          "Packing file to start from, instead of settling: blocks, their places and which are fixed are the file's.")
+          .choice("start"),
   };
 }
 
