@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "thermal/held_nodes.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -41,8 +42,7 @@ std::optional<HeldJump> held_jump(const PerfectTerm<dim>& term, const HeatModel&
 template <int dim>
 void check_held_joints(const JointConduction<dim>& joints, const HeatModel& model) {
   if (joints.perfect.empty() || model.holds.empty()) return;
-  std::vector<int> holds(static_cast<std::size_t>(model.capacity.size()), -1);
-  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) holds[model.fixed_nodes[i].index()] = model.fixed_hold[i];
+  const std::vector<int> holds = holds_of_nodes(model);
   for (const PerfectTerm<dim>& term : joints.perfect) {
     const auto jump = held_jump(term, model, holds);
     if (!jump || std::abs(jump->difference) <= rounding * jump->size) continue;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/mesh/disjoint_sets.h"
+#include "thermal/held_nodes.h"
 
 namespace scree::thermal {
 
@@ -31,9 +32,7 @@ std::optional<std::array<NodeId, dim>> matching_corners(const mesh::BlockMesh<di
 // Nodes that are one, and the condition that holds them, if any does.
 class Ties {
  public:
-  Ties(std::size_t nodes, const HeatModel& model) : sets_(nodes), hold_(nodes, -1) {
-    for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) hold_[model.fixed_nodes[i].index()] = model.fixed_hold[i];
-  }
+  Ties(std::size_t nodes, const HeatModel& model) : sets_(nodes), hold_(holds_of_nodes(model)) {}
 
   // Whether no two conditions would hold them then.
   [[nodiscard]] bool may_be_one(NodeId a, NodeId b) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/between.h"
+
 namespace scree::thermal {
 
 namespace {
@@ -36,11 +38,11 @@ Eigen::Matrix3Xd places_of_hold(const HeatModel& model, std::size_t hold) {
   return model.places(Eigen::all, rows);
 }
 
-// Each function that changes in time, with where it acts.
+// Each function that changes in time, and what tells where it acts.
 template <typename Visit>
 void for_each_change(const HeatModel& model, const Visit& visit) {
   const auto look = [&](const Function& function, const auto& places) {
-    if (function.varies_in_time()) visit(function, places());
+    if (function.varies_in_time()) visit(function, places);
   };
   for (std::size_t h = 0; h < model.holds.size(); ++h) {
     look(model.holds[h].temperature, [&] { return places_of_hold(model, h); });
@@ -60,7 +62,7 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
   constexpr int steps_of_one = 1024;
   constexpr int steps_of_many = 64;
   constexpr Eigen::Index most_places = 16;
-  for_each_change(model, [&](const Function& function, const Eigen::Matrix3Xd& places) {
+  for_each_change(model, [&](const Function& function, const auto& places_of) {
     if (function.bends_between(begin, end)) {
       tables_.push_back(&function);
       return;
@@ -69,6 +71,7 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
       seen_.push_back({(end - begin) / steps_of_one, bends_of(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one)});
       return;
     }
+    const Eigen::Matrix3Xd places = places_of();
     const Eigen::Index count = std::min(places.cols(), most_places);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Vector3d place = places.col(i * places.cols() / count);
@@ -77,16 +80,10 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
   });
 }
 
-std::size_t TimeBends::Seen::between(double begin, double end) const {
-  const auto first = std::upper_bound(times.begin(), times.end(), begin);
-  const auto last = std::lower_bound(first, times.end(), end);
-  return static_cast<std::size_t>(last - first);
-}
-
 std::size_t TimeBends::most_between(double begin, double end) const {
   std::size_t most = 0;
   for (const Function* table : tables_) most = std::max(most, table->bends_between(begin, end).value_or(0));
-  for (const Seen& seen : seen_) most = std::max(most, seen.between(begin, end));
+  for (const Seen& seen : seen_) most = std::max(most, count_between(seen.times, begin, end));
   return most;
 }
 
@@ -94,7 +91,7 @@ bool TimeBends::any_between(double begin, double end) const {
   return std::any_of(tables_.begin(), tables_.end(),
                      [&](const Function* table) { return table->bends_between(begin, end).value_or(0) > 0; }) ||
          std::any_of(seen_.begin(), seen_.end(),
-                     [&](const Seen& seen) { return seen.between(begin - seen.step, end + seen.step) > 0; });
+                     [&](const Seen& seen) { return count_between(seen.times, begin - seen.step, end + seen.step) > 0; });
 }
 
 }  // namespace scree::thermal

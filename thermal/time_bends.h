@@ -24,8 +24,6 @@ class TimeBends {
   struct Seen {
     double step;                // between looks [s]
     std::vector<double> times;  // ascending [s]
-
-    [[nodiscard]] std::size_t between(double begin, double end) const;
   };
 
   std::vector<const Function*> tables_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/between.h"
 #include "engine/base/check.h"
 
 namespace scree {
@@ -42,9 +43,7 @@ double LinearTable::integral(double place) const {
 }
 
 std::size_t LinearTable::places_between(double begin, double end) const {
-  const auto first = std::upper_bound(places_.begin(), places_.end(), begin);
-  const auto last = std::lower_bound(first, places_.end(), end);
-  return static_cast<std::size_t>(last - first);
+  return count_between(places_, begin, end);
 }
 
 }  // namespace scree

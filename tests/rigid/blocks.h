@@ -10,6 +10,16 @@ namespace scree::rigid::testing {
 
 using Eigen::Vector3d;
 
+constexpr double g = 9.81;  // of SettleOptions [m/s2]
+
+// A fall of this time, whether anything comes to rest or not.
+inline SettleOptions for_time(double limit) {
+  SettleOptions options;
+  options.limit = limit;
+  options.rest_speed = 0;
+  return options;
+}
+
 // A body of one box, turned about its centre: six tetrahedra around its diagonal.
 inline BlockId add_box(mesh::BlockMesh<3>& mesh, const Vector3d& size, const Pose& pose, bool fixed,
                        const Vector3d& velocity = Vector3d::Zero()) {

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double g = 9.81;
+using testing::g;
+
 constexpr double step = 1.0 / 240;
 
 // In hexahedra that are a block each.

@@ -11,16 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::add_box;
+using testing::for_time;
+using testing::g;
 using testing::material;
-
-constexpr double g = 9.81;
-
-SettleOptions for_time(double limit) {
-  SettleOptions options;
-  options.limit = limit;
-  options.rest_speed = 0;
-  return options;
-}
 
 // A block on a level plate under a gravity that pulls along it, too: what a slope of this angle does, down the heading. Its way
 // [m].

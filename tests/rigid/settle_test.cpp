@@ -17,9 +17,9 @@ namespace {
 using Eigen::Vector3d;
 using testing::add_box;
 using testing::add_tetrahedron;
+using testing::for_time;
+using testing::g;
 using testing::material;
-
-constexpr double g = 9.81;
 
 mesh::BlockMesh<3> plate() {
   mesh::BlockMesh<3> mesh;
@@ -30,13 +30,6 @@ mesh::BlockMesh<3> plate() {
 Pose slope(double angle, double height) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
   return {turn * Vector3d(0, 0, height), turn};
-}
-
-SettleOptions for_time(double limit) {
-  SettleOptions options;
-  options.limit = limit;
-  options.rest_speed = 0;
-  return options;
 }
 
 // Block 0 is the fixed slope, block 1 slides on it; its way down the slope [m].
