@@ -1,7 +1,10 @@
 #include "tools/render_command.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +16,8 @@
 namespace scree {
 
 namespace {
+
+const std::vector<std::string> series_names{"settle", "heat", "contacts"};
 
 // What a series is looked at for, and how its legend reads.
 struct Look {
@@ -68,6 +73,24 @@ Aabb<3> view_of(const std::vector<std::string>& corners) {
   return view;
 }
 
+// A run may be without settling or without heat.
+void check_series(const std::filesystem::path& index) {
+  std::error_code ignored;
+  const auto is_there = [&](const std::string& series) {
+    return std::filesystem::is_regular_file(index.parent_path() / (series + ".pvd"), ignored);
+  };
+  if (is_there(index.stem().string())) return;
+  Problem wrong;
+  wrong.key = "--series";
+  wrong.value = index.stem().string();
+  wrong.rule = fmt::format("must be a series of {}", index.parent_path().string());
+  std::vector<std::string> others;
+  std::copy_if(series_names.begin(), series_names.end(), std::back_inserter(others), is_there);
+  wrong.suggestion =
+      others.empty() ? "There is none: name the --out of a run" : fmt::format("There is {}", fmt::join(others, ", "));
+  throw InputError(wrong);
+}
+
 // Where a picture can be written.
 void check_picture(const std::filesystem::path& png) {
   if (png.extension() != ".png") refuse("--picture", png.string(), "must end in .png");
@@ -95,8 +118,7 @@ int animate(const RenderArguments& arguments, output::Picture picture) {
 
 void declare_render(CLI::App& command, RenderArguments& arguments) {
   command.add_option("directory", arguments.directory, "the --out of a run")->required();
-  command.add_option("--series", arguments.series, "settle, heat or contacts")
-      ->check(CLI::IsMember({"settle", "heat", "contacts"}));
+  command.add_option("--series", arguments.series, "settle, heat or contacts")->check(CLI::IsMember(series_names));
   command.add_option("--array", arguments.array, "what the colours show (default: temperature, heat_flow or body)");
   command.add_option("--time", arguments.time, "of the frame, such as \"2 h\" (default: the last)");
   command.add_option("--cut", arguments.cut, "leave out what is in front of this y, such as \"0 m\"");
@@ -115,6 +137,7 @@ int render_command(const RenderArguments& arguments) {
   const Look look = look_of(arguments);
   output::Picture picture;
   picture.series = directory / (arguments.series + ".pvd");
+  check_series(picture.series);
   picture.array = look.array;
   picture.title = look.title;
   picture.offset = look.offset;
@@ -126,7 +149,10 @@ int render_command(const RenderArguments& arguments) {
   const std::filesystem::path png =
       arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
   check_picture(png);
-  output::render(picture, png);
+  const double drawn = output::render(picture, png);
+  if (picture.time && *picture.time != drawn) {
+    fmt::print(stderr, "note: the frame drawn is the nearest to {}, at {:.10g} s\n", arguments.time, drawn);
+  }
   fmt::print("{}\n", png.string());
   return 0;
 }

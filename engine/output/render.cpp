@@ -106,11 +106,12 @@ Common look_through(const Picture& picture, const std::vector<SeriesEntry>& entr
 
 namespace vtk {
 
-void render(const Picture& picture, const std::filesystem::path& png) {
+double render(const Picture& picture, const std::filesystem::path& png) {
   const ShownFrame frame = read_shown(picture, choose_frame(picture));
   const Colouring colouring = make_colours(*frame.array, range_of(*frame.array, picture));
   Canvas canvas(picture, colouring, points_in_view(*frame.grid, picture));
   save(*canvas.draw(frame), png);
+  return frame.time;
 }
 
 void animate(const Picture& picture, double duration, const std::filesystem::path& video) {

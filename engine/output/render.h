@@ -24,10 +24,11 @@ struct Picture {
   double offset = 0;                           // added to every value first: -273.15 shows kelvin as degrees Celsius
 };
 
-// Draws one frame into a PNG. 3-D is seen from above at an angle, from the side of negative y; 2-D from the front.
+// Draws one frame into a PNG and returns its time [s]. 3-D is seen from above at an angle, from the side of negative y; 2-D
+// from the front.
 // Throws InputError for an array the frame does not have, and RunError for a series that cannot be read, a picture that cannot
 // be written, or a missing Xvfb.
-void render(const Picture& picture, const std::filesystem::path& png);
+double render(const Picture& picture, const std::filesystem::path& png);
 
 // Draws all frames, or as many as can be seen in `duration` [s], into a video: .webm (VP9) or .mp4 (H.264), both of which
 // browsers play. One legend and one camera for all. Throws as `render` does, and RunError without ffmpeg.

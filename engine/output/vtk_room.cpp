@@ -13,8 +13,8 @@ const VtkRoom& room() {
 
 }  // namespace
 
-void render(const Picture& picture, const std::filesystem::path& png) {
-  room().render(picture, png);
+double render(const Picture& picture, const std::filesystem::path& png) {
+  return room().render(picture, png);
 }
 
 void animate(const Picture& picture, double duration, const std::filesystem::path& video) {

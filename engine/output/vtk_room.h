@@ -11,7 +11,7 @@ namespace scree::output {
 
 // In the library, the functions of the same names in namespace vtk.
 struct VtkRoom {
-  void (*render)(const Picture&, const std::filesystem::path&);
+  double (*render)(const Picture&, const std::filesystem::path&);
   void (*animate)(const Picture&, double, const std::filesystem::path&);
   mesh::RawMesh (*read_vtu)(const std::filesystem::path&);
   NodalField (*read_stored_2)(const StoredField&, const mesh::BlockMesh<2>&);
@@ -20,7 +20,7 @@ struct VtkRoom {
 
 namespace vtk {
 
-void render(const Picture& picture, const std::filesystem::path& png);
+double render(const Picture& picture, const std::filesystem::path& png);
 void animate(const Picture& picture, double duration, const std::filesystem::path& video);
 mesh::RawMesh read_vtu(const std::filesystem::path& file);
 template <int dim>

@@ -100,6 +100,18 @@ TEST(Doctor, FindsBlocksThatTouchNothing) {
               ElementsAre("1 of 1 blocks of body c2 touch nothing: no heat passes to or from them"));
 }
 
+TEST(Doctor, FindsAWindowThatReachesBeyondTheBlocks) {
+  const auto with = [](const std::string& high) {
+    return report_of(cubes({}, {"[0, 0, 0]"}) +
+                     "heat:\n  initial: 300\n  until: 1\n  effective_conductivity: {low: [-0.5, -0.5, -0.5], high: " + high +
+                     "}\noutput: {every: 1}\n")
+        .suspicious;
+  };
+  EXPECT_THAT(with("[0.5, 0.5, 0.75]"),
+              ElementsAre(HasSubstr("goes from -0.5 to 0.75 m along z, the blocks from -0.5 to 0.5")));
+  EXPECT_THAT(with("[0.5, 0.5, 0.5]"), IsEmpty());
+}
+
 TEST(Doctor, FindsOutputsByTheMillion) {
   const std::string body = cubes({}, {"[0, 0, 0]"}) + "heat: {initial: 300, until: 1 h}\n";
   EXPECT_THAT(

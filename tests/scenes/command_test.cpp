@@ -117,6 +117,9 @@ TEST(Command, DrawsARunWithoutAScreen) {
   const Outcome outcome = scree("render " + directory.string() + " --time \"1 h\" --cut \"0 m\"");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_GT(std::filesystem::file_size(directory / "heat.png"), 10000u);
+  const auto said = [&](const std::string& option) { return scree("render " + directory.string() + " " + option).text; };
+  EXPECT_NE(said("--time 3599").find("nearest to 3599, at 3600 s"), std::string::npos) << said("--time 3599");
+  EXPECT_NE(said("--series settle").find("There is heat, contacts"), std::string::npos) << said("--series settle");
   for (const char* wrong : {"--view 1 1 1 0 0 0", "--picture picture.jpg", "--picture /nowhere/picture.png"}) {
     EXPECT_EQ(scree("render " + directory.string() + " " + wrong).status, 2) << wrong;
   }

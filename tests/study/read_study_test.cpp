@@ -134,6 +134,11 @@ TEST(ReadStudy, RefusesFiguresThatTheScenesRunsCannotReport) {
                                                              "you mean top?"));
   EXPECT_THAT(with("{column: t, probe: tip, reaches: 350}"), HasSubstr("must be a probe of the scene"));
   EXPECT_THAT(with("{column: t, probe: top}"), HasSubstr("report[0].reaches is missing"));
+  EXPECT_EQ(with("{column: t, probe: top, reaches: 350}"), "accepted");
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nset: [heat.steady=true, heat.until=null, heat.tolerance=null, output.every=null]\n"
+                         "vary: [{key: contact.stiffness_factor, values: [1]}]\n"
+                         "report: [{column: t, probe: top, reaches: 350}]\n"),
+              HasSubstr("of use only over time, which a steady scene does without). Ask for heat.probes.top.temperature"));
   EXPECT_THAT(with("heet.time_error"), HasSubstr("Did you mean heat?"));
   EXPECT_THAT(with("effective_conductivity.along.0"), HasSubstr("of use only with heat.effective_conductivity"));
   EXPECT_THAT(with("blocks, blocks"), HasSubstr("every column must have a name of its own"));

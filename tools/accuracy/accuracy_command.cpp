@@ -75,6 +75,7 @@ class Study {
       fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);
     }
     std::vector<std::string> words{"run", fs::absolute(scene_.file).string(), "--quiet", "--out", files.directory.string()};
+    if (arguments_.threads > 0) words.insert(words.end(), {"--threads", fmt::format("{}", arguments_.threads)});
     for (const auto& overrides : {arguments_.overrides, overrides_of(scene_, rung)}) {
       for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
     }
@@ -122,6 +123,8 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_option("--contact", arguments.ladder.contact_models, "contact models (default: the scene's)");
   command.add_option("--blocks", arguments.ladder.block_models,
                      "how blocks are resolved: meshed, lumped, auto (default: the scene's)");
+  command.add_option("--threads", arguments.threads, "of each run (default: the processors there are)")
+      ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", arguments.quiet, "no progress");
 }
 

@@ -16,6 +16,7 @@ struct Arguments {
   std::string directory;                // empty: out/ and the scene's name and -accuracy
   std::vector<std::string> tolerances;  // quantities
   LadderOptions ladder;                 // its tolerances come from those above
+  int threads = 0;                      // of each run; 0: the processors there are
   bool quiet = false;
 };
 

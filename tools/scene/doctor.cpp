@@ -80,6 +80,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   if (!scene.settle && !scene.packing && !scene.heat) {
     sentences.push_back("the scene has neither a settle nor a heat section: nothing happens");
   }
+  if (!scene.settle && scene.effective_window) append(sentences, window_beyond_blocks(mesh, *scene.effective_window));
   if (scene.packing) return report;  // the run that made it has judged how the blocks lie
   append(sentences, overlapping_bodies(mesh));
   if constexpr (dim == 3) {

@@ -29,6 +29,10 @@ Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh);
 // Free blocks with no fixed block below them, as gravity goes.
 Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity);
 
+// A window of the effective conductivity that reaches beyond all blocks: what is void there counts as part of the sample.
+template <int dim>
+Sentences window_beyond_blocks(const mesh::BlockMesh<dim>& mesh, const Aabb<3>& window);
+
 // Blocks that no heat can reach through a contact, in bodies that no boundary or source heats.
 template <int dim>
 Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,

@@ -34,7 +34,7 @@ std::string overlap_sentence(const auto& mesh, BlockId a, BlockId b, const std::
 }
 
 // Blocks that only touch overlap by rounding.
-constexpr double rounding = 1e-6;  // of the mean edge, or of an element in barycentric coordinates
+constexpr double rounding = 1e-6;  // of the mean edge, of an element in barycentric coordinates, or of the extent of all blocks
 
 // Whether a node of block `a` lies inside an element of block `b`.
 bool reaches_into(const mesh::BlockMesh<2>& mesh, BlockId a, BlockId b) {
@@ -129,6 +129,25 @@ Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d&
   }
   return sentences;
 }
+
+template <int dim>
+Sentences window_beyond_blocks(const mesh::BlockMesh<dim>& mesh, const Aabb<3>& window) {
+  Aabb<dim> all;
+  for (const Point<dim>& node : mesh.nodes) all.extend(node);
+  Sentences sentences;
+  for (Eigen::Index axis = 0; axis < dim; ++axis) {
+    const double low = all.min()[axis], high = all.max()[axis];
+    const double slack = rounding * (high - low);
+    if (window.min()[axis] >= low - slack && window.max()[axis] <= high + slack) continue;
+    sentences.push_back(
+        fmt::format("the box of heat.effective_conductivity goes from {:g} to {:g} m along {}, the blocks from {:g} to {:g} m: "
+                    "the void beyond them counts as part of the sample",
+                    window.min()[axis], window.max()[axis], "xyz"[axis], low, high));
+  }
+  return sentences;
+}
+template Sentences window_beyond_blocks(const mesh::BlockMesh<2>&, const Aabb<3>&);
+template Sentences window_beyond_blocks(const mesh::BlockMesh<3>&, const Aabb<3>&);
 
 template <int dim>
 Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,

@@ -86,7 +86,13 @@ void check_reports(const Study& study, const Scene& scene, Complaints& complaint
       complaints.add(problem_of(report, probe, "must be a probe of the scene", suggest(probe, probes)));
       continue;
     }
-    if (!report.probe.empty()) continue;
+    if (!report.probe.empty()) {
+      if (scene.heat->time.steady) {
+        complaints.add(problem_of(report, report.column, "of use only over time, which a steady scene does without",
+                                  fmt::format("Ask for heat.probes.{}.temperature instead", report.probe)));
+      }
+      continue;
+    }
     const auto known = [&](const std::string& part) { return starts_with_part(report.path, part); };
     const std::string first = report.path.substr(0, report.path.find('.'));
     if (!scene.heat && (known("heat") || known("joints") || known("contacts") || known("effective_conductivity"))) {
