@@ -1,5 +1,6 @@
 #include "thermal/boundary.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/mesh/cells.h"
+#include "engine/mesh/part_in_box.h"
 #include "engine/mesh/surfaces.h"
 #include "thermal/problems.h"
 
@@ -32,9 +34,8 @@ class Applier {
   Applier(const mesh::BlockMesh<dim>& mesh, double until, const MovingBodies& moving, HeatModel& model)
       : mesh_(mesh), model_(model), until_(until), moving_(moving), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
-    Aabb<dim> extent;
-    for (const Point<dim>& point : mesh.nodes) extent.extend(point);
-    rounding_ = mesh.nodes.empty() ? 0 : 1e-9 * extent.diagonal().norm();
+    for (const Point<dim>& point : mesh.nodes) everywhere_.extend(point);
+    rounding_ = mesh.nodes.empty() ? 0 : 1e-9 * everywhere_.diagonal().norm();
   }
 
   void apply(const Boundary& boundary) {
@@ -67,15 +68,10 @@ class Applier {
     SharesByNode shares;
     for (const BlockId b : blocks_of_[source.region.body]) {
       mesh::for_each_simplex(mesh_, mesh_.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
-        Point<dim> centre = Point<dim>::Zero();
-        for (const NodeId node : nodes) centre += mesh_.nodes[node] / (dim + 1);
-        if (!inside(source.region, centre)) return;
-        const double share = weight * mesh::simplex_volume<dim>(mesh_, nodes) / (dim + 1);
-        for (const NodeId node : nodes) shares[node] += share;
+        add_part(source.region, nodes, weight, shares);
       });
     }
-    if (shares.empty())
-      nothing_there(source.where, "heat.sources", source.name, source.region, "at least one element's centre");
+    if (shares.empty()) nothing_there(source.where, "heat.sources", source.name, source.region, "a part of an element");
     model_.loads.push_back({source.name, listed(shares), source.power});
   }
 
@@ -103,11 +99,24 @@ class Applier {
 
   bool not_known_yet(const Region& region) const { return region.within && moving_.contains(region.body); }
 
+  static Aabb<dim> box_of(const Region& region) {
+    return {region.within->min().template head<dim>(), region.within->max().template head<dim>()};
+  }
+
   bool inside(const Region& region, const Point<dim>& point) const {
     if (!region.within) return true;
-    const auto low = region.within->min().template head<dim>().array() - rounding_;
-    const auto high = region.within->max().template head<dim>().array() + rounding_;
-    return (point.array() >= low).all() && (point.array() <= high).all();
+    const Aabb<dim> box = box_of(region);
+    return (point.array() >= box.min().array() - rounding_).all() && (point.array() <= box.max().array() + rounding_).all();
+  }
+
+  // The shares of an element's or a face's corners in the part of it that lies in the region.
+  template <std::size_t corners>
+  void add_part(const Region& region, const std::array<NodeId, corners>& nodes, double weight, SharesByNode& shares) const {
+    const auto part = mesh::shares_in_box<dim, corners>(mesh::corners_of(mesh_, nodes),
+                                                        region.within ? box_of(region) : everywhere_, rounding_);
+    if (part.sum() <= 0) return;
+    for (std::size_t corner = 0; corner < corners; ++corner)
+      shares[nodes[corner]] += weight * part[static_cast<Eigen::Index>(corner)];
   }
 
   void no_such_surface(const Boundary& boundary) {
@@ -167,7 +176,12 @@ class Applier {
 
   Eigen::Vector3d place(NodeId node) const { return model_.places.col(node.value()); }
 
-  // The share of each node in the area of the region's faces.
+  bool all_inside(const Region& region, const mesh::Face<dim>& face) const {
+    return std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return inside(region, mesh_.nodes[node]); });
+  }
+
+  // The share of each node in the area of the region's faces. A box alone picks whole faces: a thin one about a side of a body
+  // is how a side without a name is meant, not the rims of its neighbours.
   NodeShares face_shares(const Boundary& boundary) {
     if (!faces_) faces_ = mesh::weighted_faces(mesh_);
     SharesByNode shares;
@@ -175,15 +189,13 @@ class Applier {
     if (boundary.region.surface) surface = mesh::find_surface(mesh_, boundary.region.body, *boundary.region.surface);
     for (const mesh::WeightedFace<dim>& face : *faces_) {
       if (mesh_.blocks[face.block].body != boundary.region.body) continue;
-      bool in = !surface || mesh::on_surface<dim>(mesh_, face.nodes, *surface);
-      for (const NodeId node : face.nodes) in = in && inside(boundary.region, mesh_.nodes[node]);
-      if (!in) continue;
-      const double share = face.weight * mesh::face_area<dim>(mesh_, face) / dim;
-      for (const NodeId node : face.nodes) shares[node] += share;
+      if (surface ? mesh::on_surface<dim>(mesh_, face.nodes, *surface) : all_inside(boundary.region, face)) {
+        add_part(boundary.region, face.nodes, face.weight, shares);
+      }
     }
     if (shares.empty()) {
       nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region,
-                    "at least one boundary face with all its corners");
+                    surface ? "a part of a face" : "at least one boundary face with all its corners");
     }
     return listed(shares);
   }
@@ -226,6 +238,7 @@ class Applier {
   const MovingBodies& moving_;
   std::optional<Table<FaceId, mesh::WeightedFace<dim>>> faces_;  // once something passes heat through faces
   Table<BodyId, std::vector<BlockId>> blocks_of_;
+  Aabb<dim> everywhere_;
   double rounding_ = 0;         // [m]
   std::map<NodeId, int> held_;  // which of the model's holds
   std::vector<Problem> problems_;

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/mesh/disjoint_sets.h"
-#include "engine/mesh/volume_in_box.h"
+#include "engine/mesh/part_in_box.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
 #include "thermal/problems.h"
@@ -228,7 +228,7 @@ template <int dim>
 std::vector<ElementPart> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
   std::vector<ElementPart> parts;
   for (const ElementId e : mesh.elements.ids()) {
-    const double volume = mesh::volume_in_box(mesh, e, window);
+    const double volume = mesh::shares_in_box<dim, dim + 1>(mesh::corners_of(mesh, mesh.elements[e]), window, 0).sum();
     if (volume > 0) parts.push_back({e, volume});
   }
   if (!parts.empty()) return parts;

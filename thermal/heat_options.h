@@ -28,12 +28,13 @@ struct Region {
   std::optional<std::string> surface{};  // of the body, by its name; boundaries only
 };
 
-// All are functions of place [m] and time [s]; on a face, of its corners' places.
+// All are functions of place [m] and time [s]; on a face, of its corners' places. A region's faces: of a surface the part that
+// lies in the box; without a surface every boundary face whose corners all do.
 struct FixedTemperature {
   Function temperature = 0.0;  // [K], at every node in the region; inner ones too, without a surface
 };
 struct HeatFlux {
-  Function flux = 0.0;  // [W/m2], into the body, on every boundary face whose corners are all in the region
+  Function flux = 0.0;  // [W/m2], into the body, on the region's faces
 };
 struct HeatFlow {
   Function flow = 0.0;  // [W], total into the body, spread over those faces by area; must not depend on place
@@ -58,7 +59,7 @@ struct Boundary {
 
 struct Source {
   Region region;
-  Function power = 0.0;  // [W/m3], in every simplex (of cells: of both splits) whose centre is in the region
+  Function power = 0.0;  // [W/m3], in the part of every element that lies in the region
   std::string name;
   SourceLocation where;
 };

@@ -46,7 +46,7 @@ TEST(Preflight, FindsWhatTheBlocksCannotGive) {
       {"heat.boundaries.0.surface=nope", "scene:5:35: ", "must be a surface of body plate"},
       {"heat.boundaries.0.within={low: [5, 5, 5], high: [6, 6, 6]}", "scene:5:35: ", "must hold at least one node"},
       {"heat.sources=[{body: plate, power: 1, within: {low: [5, 5, 5], high: [6, 6, 6]}}]",
-       "--set heat.sources: ", "at least one element's centre"},
+       "--set heat.sources: ", "must hold a part of an element"},
       {"heat.effective_conductivity={low: [5, 5, 5], high: [6, 6, 6]}", "--set heat.effective_conductivity: ",
        "is a window from (5, 5, 5) to (6, 6, 6) m (must hold a part of at least one element)"},
       {"heat.space_order=4", "--set heat.space_order: ", "must have blocks of hexahedra"},

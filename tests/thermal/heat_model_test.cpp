@@ -256,6 +256,36 @@ TYPED_TEST(HeatModels, OfASurfaceAndARegionBothMustHold) {
   EXPECT_EQ(model.fixed_nodes.size(), dim == 2 ? 2u : 6u);
 }
 
+// The sum and the first moment along an axis of what the first load puts on the nodes.
+template <int dim>
+std::pair<double, double> moments(const mesh::BlockMesh<dim>& mesh, const HeatModel& model, int axis) {
+  const Eigen::VectorXd load = Drives(model).at(0).load;
+  double moment = 0;
+  for (const NodeId node : mesh.nodes.ids()) moment += load[node.value()] * mesh.nodes[node][axis];
+  return {load.sum(), moment};
+}
+
+TYPED_TEST(HeatModels, WhatABoxCutsOutOfASurfaceIsHeatedWhateverTheMesh) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = named_bar<dim>();
+  HeatOptions options = options_for(mesh, 300);
+  const Aabb<3> lower(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(3, 0.3, 1));
+  options.boundaries.push_back({test::on(BodyId{0}, lower, "left"), HeatFlux{1}, "flux", {}});
+  const auto [heat, moment] = moments(mesh, make_heat_model(mesh, rock_only(), {}, options), 1);
+  EXPECT_NEAR(heat, 0.3 * (dim == 2 ? 1 : 0.5), 1e-14);
+  EXPECT_NEAR(moment / heat, 0.15, 1e-14);
+}
+
+TYPED_TEST(HeatModels, ASourceHeatsWhatItsBoxCutsOutOfTheElements) {
+  constexpr int dim = TypeParam::value;
+  const auto mesh = slab_mesh<dim>({bar<dim>(2.0, 4, 3, 0.5)});
+  HeatOptions options = options_for(mesh, 300);
+  options.sources.push_back({test::on(BodyId{0}, between_x(0.31, 1.09)), 1000, "source", {}});
+  const auto [heat, moment] = moments(mesh, make_heat_model(mesh, rock_only(), {}, options), 0);
+  EXPECT_NEAR(heat, 1000 * 0.78 * (dim == 2 ? 0.5 : 0.25), 1e-9);
+  EXPECT_NEAR(moment / heat, 0.7, 1e-12);
+}
+
 TEST(HeatModelErrors, AnUnknownSurfaceIsAnsweredWithThoseThatThereAre) {
   const auto mesh = named_bar<3>();
   HeatOptions options = options_for(mesh, 300);

@@ -14,12 +14,9 @@ namespace q = quantity;
 constexpr auto vector = Count::per_dimension;
 
 // Where a region below `parent` ends.
-Keys within(const std::string& parent) {
+Keys within(const std::string& parent, const std::string& meaning) {
   return {
-      row(parent + ".within", section,
-          "An axis-aligned box of space that holds the part meant: nodes, faces with all their corners, elements by their "
-          "centre.")
-          .otherwise("the whole body"),
+      row(parent + ".within", section, meaning).otherwise("the whole body"),
       row(parent + ".within.low", quantity, "Its corner with the least coordinates.", q::length).count(vector).required(),
       row(parent + ".within.high", quantity, "Its corner with the largest coordinates.", q::length).count(vector).required(),
   };
@@ -70,7 +67,9 @@ Keys boundary_keys() {
       surroundings("heat.boundaries[].radiation"),
       row("heat.boundaries[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
   };
-  append(keys, within("heat.boundaries[]"));
+  append(keys, within("heat.boundaries[]",
+                      "what it cuts out of the surface; without a surface whole faces, with all their corners. Of temperatures "
+                      "the nodes."));
   append(
       keys,
       {
@@ -80,7 +79,7 @@ Keys boundary_keys() {
           row("heat.sources[].power", quantity, "Per volume.", q::power_density).depends(Depends::on_place_and_time).required(),
           row("heat.sources[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
       });
-  append(keys, within("heat.sources[]"));
+  append(keys, within("heat.sources[]", "An axis-aligned box of space: what it cuts out of the elements."));
   return keys;
 }
 
