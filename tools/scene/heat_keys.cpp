@@ -67,9 +67,11 @@ Keys boundary_keys() {
       surroundings("heat.boundaries[].radiation"),
       row("heat.boundaries[].name", name, "How the ledger of heat calls it.").otherwise("kind and body"),
   };
-  append(keys, within("heat.boundaries[]",
-                      "what it cuts out of the surface; without a surface whole faces, with all their corners. Of temperatures "
-                      "the nodes."));
+  append(
+      keys,
+      within(
+          "heat.boundaries[]",
+          "An axis-aligned box: what it cuts out of the surface; without a surface whole faces; of temperatures the nodes."));
   append(
       keys,
       {
