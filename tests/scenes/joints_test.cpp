@@ -94,6 +94,20 @@ TEST(JointedCubes, ConductAsTheClosedFormSays) {
     EXPECT_GT(found["upper"][axis][axis], found["along"][axis]);
   }
   EXPECT_NEAR(found["solid_fraction"].get<double>(), 1, 1e-9);
+  EXPECT_FALSE(run.summary["heat"].contains("covered_boundaries"));
+}
+
+// 64 cubes with sides of 0.01 m2, 144 joints of which cover a side of each of two cubes.
+TEST(JointedCubes, AreToldFromCubesInTheOpenWhereAllTheirFacesAreCooled) {
+  const SceneRun run = test::run("jointed_cubes", fresh_directory("cooled_cubes"),
+                                 {"heat.boundaries=[{body: cubes, convection: {coefficient: 5, surroundings: 300}, name: air}]",
+                                  "heat.effective_conductivity=null"});
+  ASSERT_EQ(run.exit_status, 0);
+  const auto& covered = run.summary["heat"]["covered_boundaries"];
+  ASSERT_EQ(covered.size(), 1u);
+  EXPECT_EQ(covered[0]["name"], "air");
+  EXPECT_NEAR(covered[0]["area"], 3.84, 1e-12);
+  EXPECT_NEAR(covered[0]["covered_area"], 2.88, 1e-12);
 }
 
 }  // namespace

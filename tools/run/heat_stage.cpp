@@ -112,6 +112,13 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
       return contact::overlap_areas(outcome.pile.mesh, contacts, search_of(scene, outcome.pile));
     });
   }
+  outcome.covered = covered_boundaries(outcome.pile.mesh, scene.heat->boundaries, outcome.overlap_areas);
+  for (const CoveredBoundary& boundary : outcome.covered) {
+    context.progress.note(
+        fmt::format("heat: {} acts on {:.4g} m2, of which {:.4g} m2 lie on other blocks; a box (`within`) can "
+                    "leave them out",
+                    boundary.name, boundary.area, boundary.covered_area));
+  }
   const auto& probes = outcome.pile.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {
     outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));

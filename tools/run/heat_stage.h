@@ -10,6 +10,7 @@
 #include "thermal/effective_conductivity.h"
 #include "thermal/heat_run.h"
 #include "thermal/space_error.h"
+#include "tools/run/covered.h"
 #include "tools/run/heat_recorder.h"
 #include "tools/run/run_context.h"
 
@@ -22,6 +23,7 @@ struct HeatOutcome {
   thermal::HeatState state;  // at the end
   // Where two bodies' blocks lie on each other, if any contact was found [m2].
   std::map<std::pair<BodyId, BodyId>, double> overlap_areas;
+  std::vector<CoveredBoundary> covered;
   std::string solver;
   std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, over all times [K]
   std::optional<thermal::SpaceError> space_error;                // at the end, if the user asks for it

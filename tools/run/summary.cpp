@@ -186,6 +186,10 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"largest_temperature", state.temperature.maxCoeff()},
                      {"least_temperature_ever", state.reached.least},
                      {"largest_temperature_ever", state.reached.largest}};
+  for (const CoveredBoundary& boundary : outcome.covered) {
+    summary["heat"]["covered_boundaries"].push_back(
+        {{"name", boundary.name}, {"area", boundary.area}, {"covered_area", boundary.covered_area}});
+  }
   if (outcome.exact_error) summary["heat"]["exact_error"] = *outcome.exact_error;
   const thermal::MaximumPrinciple principle = thermal::maximum_principle(*outcome.model);
   summary["heat"]["maximum_principle"] = {{"holds", principle.reversed == 0},
