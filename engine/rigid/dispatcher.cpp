@@ -1,7 +1,6 @@
 #include "engine/rigid/dispatcher.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include <array>
@@ -9,6 +8,7 @@
 #include <cstdint>
 
 #include "engine/base/phases.h"
+#include "engine/rigid/compound_collision.h"
 
 namespace scree::rigid {
 
@@ -34,6 +34,10 @@ struct WrappedPair {
 
 PolyhedronCollision& algorithm_of(const btBroadphasePair& pair) {
   return static_cast<PolyhedronCollision&>(*pair.m_algorithm);
+}
+
+CompoundCollision& compound_algorithm_of(const btBroadphasePair& pair) {
+  return static_cast<CompoundCollision&>(*pair.m_algorithm);
 }
 
 int block_of(const btBroadphaseProxy* proxy) {
@@ -74,18 +78,23 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
       look(pairs[static_cast<int>(i)], static_cast<int>(i), info.m_timeStep, news[chunk.number]);
     }
   });
+  // A pair of compounds is as much work as many pairs of polyhedra.
+  std::vector<int> compounds;
   for (const auto& part : news) {
     for (const News& at : part) {
-      const WrappedPair wrapped(pairs[at.pair]);
-      if (at.contact) {
-        algorithm_of(pairs[at.pair])
-            .claim(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject(), *at.contact);
-      } else {
-        btManifoldResult result(&wrapped.first, &wrapped.second);
-        pairs[at.pair].m_algorithm->processCollision(&wrapped.first, &wrapped.second, info, &result);
-      }
+      if (!at.contact) compounds.push_back(at.pair);
     }
   }
+  const auto for_each_compound = [&](const auto& use) {
+    run_phases(std::array<int, 1>{static_cast<int>(compounds.size())}, 1, [&](int, int i) {
+      const btBroadphasePair& pair = pairs[compounds[static_cast<std::size_t>(i)]];
+      use(compound_algorithm_of(pair), WrappedPair(pair));
+    });
+  };
+  for_each_compound([&](CompoundCollision& algorithm, const WrappedPair& wrapped) {
+    algorithm.look(wrapped.first, wrapped.second, info.m_timeStep);
+  });
+  claim(pairs, news);
   run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
     for (const News& at : news[static_cast<std::size_t>(part)]) {
       if (!at.contact) continue;
@@ -94,6 +103,24 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
       algorithm.take(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *at.contact);
     }
   });
+  for_each_compound([&](CompoundCollision& algorithm, const WrappedPair& wrapped) {
+    algorithm.take(wrapped.first, wrapped.second, info.m_timeStep);
+  });
+}
+
+// In the order of the pairs.
+void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) {
+  for (const auto& part : news) {
+    for (const News& at : part) {
+      const WrappedPair wrapped(pairs[at.pair]);
+      const auto *first = wrapped.first.getCollisionObject(), *second = wrapped.second.getCollisionObject();
+      if (at.contact) {
+        algorithm_of(pairs[at.pair]).claim(first, second, *at.contact);
+      } else {
+        compound_algorithm_of(pairs[at.pair]).claim(first, second);
+      }
+    }
+  }
 }
 
 void Dispatcher::look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const {

@@ -7,6 +7,7 @@
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 
+#include "engine/rigid/collision_configuration.h"
 #include "engine/rigid/flights.h"
 #include "engine/rigid/homes.h"
 #include "engine/rigid/polyhedron_collision.h"
@@ -26,8 +27,9 @@ class Dispatcher final : public btCollisionDispatcher {
  private:
   struct News {
     int pair;
-    std::optional<ContactPoints> contact;  // nothing: left to Bullet
+    std::optional<ContactPoints> contact;  // nothing: its pieces know
   };
+  static void claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news);
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);
   // Appends what is new of the pair with this number.

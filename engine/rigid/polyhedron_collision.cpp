@@ -1,7 +1,6 @@
 #include "engine/rigid/polyhedron_collision.h"
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-#include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -35,15 +34,20 @@ double fastest_approach(const btCollisionObjectWrapper& first, const btCollision
   const auto& a = *btRigidBody::upcast(first.getCollisionObject());
   const auto& b = *btRigidBody::upcast(second.getCollisionObject());
   return (a.getLinearVelocity() - b.getLinearVelocity()).length() +
-         static_cast<const PolyhedronShape&>(*first.getCollisionShape()).radius() * a.getAngularVelocity().length() +
-         static_cast<const PolyhedronShape&>(*second.getCollisionShape()).radius() * b.getAngularVelocity().length();
+         radius_of(*first.getCollisionShape()) * a.getAngularVelocity().length() +
+         radius_of(*second.getCollisionShape()) * b.getAngularVelocity().length();
 }
 
 }  // namespace
 
+double reach_of(const ContactRanges& ranges, const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
+                double time_step) {
+  return ranges.near + fastest_approach(first, second) * time_step;
+}
+
 PolyhedronCollision::Pair PolyhedronCollision::pair_of(const btCollisionObjectWrapper& first,
                                                        const btCollisionObjectWrapper& second, double time_step) const {
-  return {&first, &second, ranges_.near + fastest_approach(first, second) * time_step, time_step};
+  return {&first, &second, reach_of(ranges_, first, second, time_step), time_step};
 }
 
 void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
@@ -203,43 +207,6 @@ void PolyhedronCollision::move_points(const Pair& pair, bool evaluated) {
 void PolyhedronCollision::drop_manifold() {
   if (manifold_ != nullptr) m_dispatcher->releaseManifold(manifold_);
   manifold_ = nullptr;
-}
-
-namespace {
-
-class CreatePolyhedronCollision final : public btCollisionAlgorithmCreateFunc {
- public:
-  explicit CreatePolyhedronCollision(const ContactRanges& ranges) : ranges_(ranges) {}
-  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper* first,
-                                                 const btCollisionObjectWrapper* second) override {
-    void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(PolyhedronCollision));
-    return new (memory) PolyhedronCollision(info, ranges_, first, second);
-  }
-
- private:
-  ContactRanges ranges_;
-};
-
-btDefaultCollisionConstructionInfo pools(int blocks) {
-  btDefaultCollisionConstructionInfo info;
-  // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
-  info.m_customCollisionAlgorithmMaxElementSize = sizeof(PolyhedronCollision);
-  info.m_defaultMaxCollisionAlgorithmPoolSize = std::max(4096, 16 * blocks);
-  info.m_defaultMaxPersistentManifoldPoolSize = std::max(4096, 4 * blocks);
-  return info;
-}
-
-}  // namespace
-
-CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, int blocks)
-    : btDefaultCollisionConfiguration(pools(blocks)), create_(std::make_unique<CreatePolyhedronCollision>(ranges)) {}
-
-CollisionConfiguration::~CollisionConfiguration() = default;
-
-btCollisionAlgorithmCreateFunc* CollisionConfiguration::getCollisionAlgorithmCreateFunc(int first_type, int second_type) {
-  if (first_type == CUSTOM_CONVEX_SHAPE_TYPE && second_type == CUSTOM_CONVEX_SHAPE_TYPE) return create_.get();
-  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(first_type, second_type);
 }
 
 }  // namespace scree::rigid

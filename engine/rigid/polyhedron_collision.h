@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include "engine/packing/separation.h"
@@ -23,6 +21,10 @@ struct ContactRanges {
   double home = 0;          // range of Homes [m]
   double clearance = 0;     // at which two blocks touch [m]
 };
+
+// How near points of two blocks, or of pieces of theirs, must be to become contacts in a step [m].
+double reach_of(const ContactRanges& ranges, const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
+                double time_step);
 
 // Two polyhedra that may touch.
 class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
@@ -75,17 +77,6 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   packing::Separation separation_;
   btVector3 normal_;            // from the second to the first, in the first's frame
   btVector3 tangent_{0, 0, 0};  // first friction direction, in the first's frame
-};
-
-// Creates the algorithm for two polyhedra and leaves other shapes (compounds) to Bullet.
-class CollisionConfiguration final : public btDefaultCollisionConfiguration {
- public:
-  CollisionConfiguration(const ContactRanges& ranges, int blocks);
-  ~CollisionConfiguration() override;
-  btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int first_type, int second_type) override;
-
- private:
-  std::unique_ptr<btCollisionAlgorithmCreateFunc> create_;
 };
 
 }  // namespace scree::rigid

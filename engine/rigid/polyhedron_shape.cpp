@@ -35,4 +35,16 @@ void PolyhedronShape::calculateLocalInertia(btScalar mass, btVector3& inertia) c
   inertia *= mass * radius_ * radius_;
 }
 
+CompoundShape::CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces) {
+  for (const auto& piece : pieces) {
+    addChildShape(btTransform::getIdentity(), piece.get());
+    radius_ = std::max(radius_, piece->radius());
+  }
+}
+
+double radius_of(const btCollisionShape& shape) {
+  return shape.isCompound() ? static_cast<const CompoundShape&>(shape).radius()
+                            : static_cast<const PolyhedronShape&>(shape).radius();
+}
+
 }  // namespace scree::rigid

@@ -1,6 +1,10 @@
-// A convex piece as Bullet's broad phase sees it: a custom convex shape without margin.
+// Blocks as Bullet's broad phase sees them: custom convex shapes without margin, or compounds of such.
 #pragma once
 
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btConvexInternalShape.h>
 
 #include "engine/mesh/convex_pieces.h"
@@ -34,5 +38,19 @@ class PolyhedronShape final : public btConvexInternalShape {
   mesh::ConvexPiece piece_;
   double radius_ = 0;
 };
+
+// A block of several pieces, which all have its frame and must outlive it.
+class CompoundShape final : public btCompoundShape {
+ public:
+  explicit CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces);
+
+  [[nodiscard]] double radius() const { return radius_; }
+
+ private:
+  double radius_ = 0;
+};
+
+// Of the smallest sphere about the origin that holds a shape of these two kinds [m].
+double radius_of(const btCollisionShape& shape);
 
 }  // namespace scree::rigid

@@ -4,7 +4,6 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -14,6 +13,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/phases.h"
+#include "engine/rigid/collision_configuration.h"
 #include "engine/rigid/contact_solver.h"
 #include "engine/rigid/dispatcher.h"
 #include "engine/rigid/mass_properties.h"
@@ -137,7 +137,7 @@ struct World::Bullet {
 
 struct World::Item {
   std::vector<std::unique_ptr<PolyhedronShape>> pieces;
-  std::unique_ptr<btCompoundShape> compound;  // of several pieces
+  std::unique_ptr<CompoundShape> compound;  // of several pieces
   std::unique_ptr<btRigidBody> body;
   Pose frame;  // from the body's axes (centre of mass, principal) to the mesh's
   double mass = 0;
@@ -169,14 +169,13 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   }
   for (mesh::ConvexPiece& piece : mesh::convex_pieces(mesh, block)) {
     item.pieces.push_back(std::make_unique<PolyhedronShape>(moved(std::move(piece), inverse(item.frame))));
-    item.radius = std::max(item.radius, item.pieces.back()->radius());
   }
   btCollisionShape* shape = item.pieces.front().get();
   if (item.pieces.size() > 1) {
-    item.compound = std::make_unique<btCompoundShape>();
-    for (const auto& piece : item.pieces) item.compound->addChildShape(btTransform::getIdentity(), piece.get());
+    item.compound = std::make_unique<CompoundShape>(item.pieces);
     shape = item.compound.get();
   }
+  item.radius = radius_of(*shape);
   btRigidBody::btRigidBodyConstructionInfo info(item.mass, nullptr, shape, inertia);
   info.m_startWorldTransform = transform_of(item.frame);
   info.m_friction = material.friction;

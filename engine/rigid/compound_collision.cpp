@@ -1,0 +1,123 @@
+#include "engine/rigid/compound_collision.h"
+
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/rigid/polyhedron_shape.h"
+
+namespace scree::rigid {
+
+namespace {
+
+using Numbers = std::array<int, 2>;
+
+const btCompoundShape* compound_of(const btCollisionObjectWrapper& block) {
+  const btCollisionShape* shape = block.getCollisionShape();
+  return shape->isCompound() ? static_cast<const btCompoundShape*>(shape) : nullptr;
+}
+
+const btCollisionShape* piece_of(const btCollisionObjectWrapper& block, int number) {
+  const btCompoundShape* compound = compound_of(block);
+  return compound == nullptr ? block.getCollisionShape() : compound->getChildShape(number);
+}
+
+btCollisionObjectWrapper wrapped_piece(const btCollisionObjectWrapper& block, int number) {
+  return {&block, piece_of(block, number), block.getCollisionObject(), block.getWorldTransform(), -1, number};
+}
+
+// The numbers of a block's pieces whose boxes, in the block's frame, meet a box in that frame. All pieces have the block's
+// frame.
+std::vector<int> pieces_in(const btCollisionObjectWrapper& block, const btVector3& low, const btVector3& high) {
+  struct Found final : btDbvt::ICollide {
+    std::vector<int> numbers;
+    void Process(const btDbvtNode* leaf) override { numbers.push_back(leaf->dataAsInt); }
+  };
+  const btCompoundShape* compound = compound_of(block);
+  if (compound == nullptr) return {0};
+  Found found;
+  const btDbvt& tree = *compound->getDynamicAabbTree();
+  tree.collideTV(tree.m_root, btDbvtVolume::FromMM(low, high), found);
+  return found.numbers;
+}
+
+// All pairs of pieces of which no point may come nearer than `reach` but these, ascending.
+std::vector<Numbers> near_pieces(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double reach) {
+  const btTransform to_first = first.getWorldTransform().inverseTimes(second.getWorldTransform());
+  const btVector3 around(reach, reach, reach);
+  btVector3 low, high;
+  first.getCollisionShape()->getAabb(to_first.inverse(), low, high);
+  std::vector<Numbers> near;
+  for (const int of_second : pieces_in(second, low - around, high + around)) {
+    btVector3 piece_low, piece_high;
+    piece_of(second, of_second)->getAabb(to_first, piece_low, piece_high);
+    for (const int of_first : pieces_in(first, piece_low - around, piece_high + around)) near.push_back({of_first, of_second});
+  }
+  std::sort(near.begin(), near.end());
+  return near;
+}
+
+}  // namespace
+
+void CompoundCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
+                                         const btDispatcherInfo& info, btManifoldResult*) {
+  look(*first, *second, info.m_timeStep);
+  claim(first->getCollisionObject(), second->getCollisionObject());
+  take(*first, *second, info.m_timeStep);
+}
+
+void CompoundCollision::look(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double time_step) {
+  keep(near_pieces(first, second, reach_of(ranges_, first, second, time_step)), first, second);
+  for (Pieces& pair : pieces_) {
+    const auto of_first = wrapped_piece(first, pair.numbers[0]), of_second = wrapped_piece(second, pair.numbers[1]);
+    pair.news = pair.collision->look(pair.collision->pair_of(of_first, of_second, time_step));
+  }
+}
+
+void CompoundCollision::claim(const btCollisionObject* first, const btCollisionObject* second) {
+  dropped_.clear();
+  for (const Pieces& pair : pieces_) {
+    if (pair.news) pair.collision->claim(first, second, *pair.news);
+  }
+}
+
+void CompoundCollision::take(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double time_step) {
+  for (const Pieces& pair : pieces_) {
+    if (!pair.news) continue;
+    const auto of_first = wrapped_piece(first, pair.numbers[0]), of_second = wrapped_piece(second, pair.numbers[1]);
+    pair.collision->take(pair.collision->pair_of(of_first, of_second, time_step), *pair.news);
+  }
+}
+
+// Pairs that stay near keep their contacts.
+void CompoundCollision::keep(const std::vector<Numbers>& near, const btCollisionObjectWrapper& first,
+                             const btCollisionObjectWrapper& second) {
+  std::vector<Pieces> kept;
+  kept.reserve(near.size());
+  auto old = pieces_.begin();
+  const auto drop_before = [&](const Numbers& numbers) {
+    for (; old != pieces_.end() && old->numbers < numbers; ++old) dropped_.push_back(std::move(*old));
+  };
+  for (const Numbers& numbers : near) {
+    drop_before(numbers);
+    if (old != pieces_.end() && old->numbers == numbers) {
+      kept.push_back(std::move(*old++));
+    } else {
+      btCollisionAlgorithmConstructionInfo info(m_dispatcher, 1);
+      kept.push_back({numbers, std::make_unique<PolyhedronCollision>(info, ranges_, &first, &second)});
+    }
+  }
+  drop_before({std::numeric_limits<int>::max(), 0});
+  pieces_ = std::move(kept);
+}
+
+void CompoundCollision::getAllContactManifolds(btManifoldArray& manifolds) {
+  for (const Pieces& pair : pieces_) pair.collision->getAllContactManifolds(manifolds);
+}
+
+}  // namespace scree::rigid
