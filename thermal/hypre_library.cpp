@@ -27,6 +27,8 @@ void keep_to_one_process() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", overwrite);
   setenv("OMPI_MCA_pml", "ob1", overwrite);
   setenv("OMPI_MCA_btl", "self", overwrite);
+  // It looks for graphics cards on X displays, too, and a display that closes meanwhile ends the program.
+  setenv("HWLOC_COMPONENTS", "-gl", overwrite);
 }
 
 // Open MPI loses some memory while it starts, which no check of our leaks should count.
