@@ -12,6 +12,7 @@ namespace {
 
 constexpr double allowed_dent = 1e-3;  // of the length of the edges beside it
 constexpr double one_plane = 1e-6;     // largest angle between triangles of one face [rad]
+constexpr std::int32_t opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // corners of a tetrahedron's faces
 
 struct Surface {
   std::vector<Eigen::Vector3d> points;                  // [m]
@@ -42,13 +43,14 @@ bool connect(Surface& surface) {
   return true;
 }
 
+template <std::size_t count>
+std::array<NodeId, count> sorted(std::array<NodeId, count> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 std::optional<Surface> boundary_surface(const BlockMesh<3>& mesh, BlockId block) {
   std::map<std::array<NodeId, 3>, int> uses;
-  static constexpr int opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  const auto sorted = [](std::array<NodeId, 3> nodes) {
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  };
   std::vector<std::array<NodeId, 3>> all;
   for (const ElementId e : mesh.blocks[block].elements) {
     for (const auto& face : opposite) {
@@ -140,7 +142,7 @@ void add_edges(ConvexPiece& piece) {
   for (const auto& [edge, face] : owner) {
     const auto twin = owner.find({edge.second, edge.first});
     if (edge.first < edge.second && twin != owner.end())
-      piece.edges.push_back({{edge.first, edge.second}, {face, twin->second}});
+      piece.edges.push_back({{edge.first, edge.second}, {face, twin->second}, false, {}});
   }
 }
 
@@ -168,7 +170,7 @@ ConvexPiece merged(const Surface& surface) {
     piece.vertices.push_back(surface.points[p]);
   }
   for (const auto& next : outlines(surface, group, static_cast<std::int32_t>(normals.size()))) {
-    auto& face = piece.faces.emplace_back(ConvexPiece::Face{normals[piece.faces.size()], {}});
+    auto& face = piece.faces.emplace_back(ConvexPiece::Face{normals[piece.faces.size()], {}, false});
     const std::int32_t start = next.begin()->first;
     std::int32_t at = start;
     do {
@@ -181,15 +183,61 @@ ConvexPiece merged(const Surface& surface) {
 }
 
 ConvexPiece tetrahedron(const BlockMesh<3>& mesh, ElementId element) {
-  static constexpr std::int32_t corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   ConvexPiece piece;
   for (const NodeId node : mesh.elements[element]) piece.vertices.push_back(mesh.nodes[node]);
-  for (const auto& c : corners) {
+  for (const auto& c : opposite) {
     const auto& p = piece.vertices;
-    piece.faces.push_back({(p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).normalized(), {c[0], c[1], c[2]}});
+    piece.faces.push_back({(p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).normalized(), {c[0], c[1], c[2]}, false});
   }
   add_edges(piece);
   return piece;
+}
+
+// A face of the block's surface beside an edge.
+struct Beside {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d far;  // its corner away from the edge [m]
+};
+
+bool stands_out(const std::vector<Beside>& faces, const Eigen::Vector3d& on_edge) {
+  if (faces.size() != 2) return false;
+  const Eigen::Vector3d way = faces[1].far - on_edge;
+  return faces[0].normal.dot(way) < -allowed_dent * way.norm();
+}
+
+// Which faces, edges and nodes of the elements are the block's.
+void mark_inner(const BlockMesh<3>& mesh, const Block& block, std::vector<ConvexPiece>& pieces) {
+  const auto& elements = block.elements;
+  const NodeId first = *block.nodes.begin();
+  std::map<std::array<NodeId, 3>, int> uses;
+  std::map<std::array<NodeId, 2>, std::vector<Beside>> beside;
+  const auto for_each_face = [&](const auto& use) {
+    std::size_t p = 0;
+    for (const ElementId e : elements) {
+      for (ConvexPiece::Face& face : pieces[p++].faces) {
+        const auto node = [&](int i) { return mesh.elements[e][face.corners[static_cast<std::size_t>(i)]]; };
+        use(face, std::array{node(0), node(1), node(2)});
+      }
+    }
+  };
+  for_each_face([&](ConvexPiece::Face&, const std::array<NodeId, 3>& nodes) { ++uses[sorted(nodes)]; });
+  for_each_face([&](ConvexPiece::Face& face, const std::array<NodeId, 3>& nodes) {
+    face.inner = uses[sorted(nodes)] > 1;
+    for (std::size_t i = 0; i < 3 && !face.inner; ++i) {
+      beside[sorted(std::array{nodes[i], nodes[(i + 1) % 3]})].push_back({face.normal, mesh.nodes[nodes[(i + 2) % 3]]});
+    }
+  });
+  std::size_t p = 0;
+  for (const ElementId e : elements) {
+    for (const NodeId node : mesh.elements[e]) pieces[p].nodes.push_back(node.value() - first.value());
+    for (ConvexPiece::Edge& edge : pieces[p].edges) {
+      const std::array nodes{mesh.elements[e][edge.corners[0]], mesh.elements[e][edge.corners[1]]};
+      const std::vector<Beside>& faces = beside[sorted(nodes)];
+      edge.inner = !stands_out(faces, mesh.nodes[nodes[0]]);
+      if (!edge.inner) edge.beside = {faces[0].normal, faces[1].normal};
+    }
+    ++p;
+  }
 }
 
 }  // namespace
@@ -202,7 +250,24 @@ std::vector<ConvexPiece> convex_pieces(const BlockMesh<3>& mesh, BlockId block) 
   }
   std::vector<ConvexPiece> pieces;
   for (const ElementId e : elements) pieces.push_back(tetrahedron(mesh, e));
+  mark_inner(mesh, mesh.blocks[block], pieces);
   return pieces;
+}
+
+std::vector<std::vector<Eigen::Vector3d>> surface_edges(const BlockMesh<3>& mesh, BlockId block) {
+  const auto& nodes = mesh.blocks[block].nodes;
+  std::vector<std::vector<Eigen::Vector3d>> edges(nodes.size());
+  Table<FaceId, Face<3>> faces;
+  add_boundary_faces(mesh, block, faces);
+  // A closed surface has every edge in both directions.
+  for (const Face<3>& face : faces) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodeId from = face.nodes[i], to = face.nodes[(i + 1) % 3];
+      edges[static_cast<std::size_t>(from.value() - (*nodes.begin()).value())].push_back(
+          (mesh.nodes[to] - mesh.nodes[from]).normalized());
+    }
+  }
+  return edges;
 }
 
 }  // namespace scree::mesh

@@ -14,12 +14,18 @@ struct ConvexPiece {
   struct Face {
     Eigen::Vector3d normal;             // outwards, unit
     std::vector<std::int32_t> corners;  // counter-clockwise seen from outside
+    bool inner = false;                 // between this piece and another of its block
   };
   struct Edge {
     std::array<std::int32_t, 2> corners;
     std::array<std::int32_t, 2> faces;
+    // Of a block of several pieces: whether its surface has no edge here that stands out, and if it has, the normals of the two
+    // faces of that surface beside it.
+    bool inner = false;
+    std::array<Eigen::Vector3d, 2> beside{};
   };
   std::vector<Eigen::Vector3d> vertices;  // [m], where the mesh has them
+  std::vector<std::int32_t> nodes;  // of a block of several pieces: of each vertex the node, counted from the block's first
   std::vector<Face> faces;
   std::vector<Edge> edges;
 };
@@ -28,5 +34,8 @@ struct ConvexPiece {
 // closed surface on which no edge is indented by more than a thousandth of the edges beside it: a meshed sphere may have
 // such dents where the mesher chose the other diagonal of four nearly concyclic points.
 std::vector<ConvexPiece> convex_pieces(const BlockMesh<3>& mesh, BlockId block);
+
+// Of each node of a block the directions in which the edges of the block's surface leave it; none inside.
+std::vector<std::vector<Eigen::Vector3d>> surface_edges(const BlockMesh<3>& mesh, BlockId block);
 
 }  // namespace scree::mesh

@@ -19,13 +19,17 @@ double face_distance(const PlacedPiece& owner, std::int32_t face, const PlacedPi
 }
 
 // Returns true if the pieces are more than `enough` apart.
-bool best_face(const PlacedPiece& owner, const PlacedPiece& other, Feature feature, double enough, Separation& best) {
+template <class Allowed>
+bool best_face(const PlacedPiece& owner, const PlacedPiece& other, Feature feature, double enough, const Allowed& allowed,
+               Separation& best) {
   for (std::size_t f = 0; f < owner.normals.size(); ++f) {
     const auto face = static_cast<std::int32_t>(f);
     const double distance = face_distance(owner, face, other);
     if (distance <= best.distance) continue;
     const Vector3d normal = feature == Feature::face_of_first ? owner.normals[f] : Vector3d(-owner.normals[f]);
-    best = {distance, normal, feature, face, face};
+    const Separation found{distance, normal, feature, face, face};
+    if (!allowed(found)) continue;
+    best = found;
     if (distance > enough) return true;
   }
   return false;
@@ -65,6 +69,32 @@ bool edge_axis(const EdgeArc& a, const EdgeArc& b, Vector3d& normal) {
   return true;
 }
 
+template <class Allowed>
+Separation best_separation(const PlacedPiece& first, const PlacedPiece& second, double enough, double face_bias,
+                           const Allowed& allowed) {
+  Separation best;
+  best.distance = -std::numeric_limits<double>::infinity();
+  if (best_face(first, second, Feature::face_of_first, enough, allowed, best)) return best;
+  if (best_face(second, first, Feature::face_of_second, enough, allowed, best)) return best;
+  double to_beat = best.distance + face_bias;
+  for (std::size_t i = 0; i < first.piece->edges.size(); ++i) {
+    const EdgeArc a = arc(first, i);
+    for (std::size_t j = 0; j < second.piece->edges.size(); ++j) {
+      const EdgeArc b = arc(second, j);
+      Vector3d normal;
+      if (!arcs_cross(a, b) || !edge_axis(a, b, normal)) continue;
+      const double distance = normal.dot(b.from - a.from);
+      if (distance <= to_beat) continue;
+      const Separation found{distance, normal, Feature::edges, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
+      if (!allowed(found)) continue;
+      to_beat = distance;
+      best = found;
+      if (distance > enough) return best;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 PlacedPiece placed(const mesh::ConvexPiece& piece, const Pose& pose) {
@@ -78,25 +108,12 @@ PlacedPiece placed(const mesh::ConvexPiece& piece, const Pose& pose) {
 }
 
 Separation separation(const PlacedPiece& first, const PlacedPiece& second, double enough, double face_bias) {
-  Separation best;
-  best.distance = -std::numeric_limits<double>::infinity();
-  if (best_face(first, second, Feature::face_of_first, enough, best)) return best;
-  if (best_face(second, first, Feature::face_of_second, enough, best)) return best;
-  double to_beat = best.distance + face_bias;
-  for (std::size_t i = 0; i < first.piece->edges.size(); ++i) {
-    const EdgeArc a = arc(first, i);
-    for (std::size_t j = 0; j < second.piece->edges.size(); ++j) {
-      const EdgeArc b = arc(second, j);
-      Vector3d normal;
-      if (!arcs_cross(a, b) || !edge_axis(a, b, normal)) continue;
-      const double distance = normal.dot(b.from - a.from);
-      if (distance <= to_beat) continue;
-      to_beat = distance;
-      best = {distance, normal, Feature::edges, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)};
-      if (distance > enough) return best;
-    }
-  }
-  return best;
+  return best_separation(first, second, enough, face_bias, [](const Separation&) { return true; });
+}
+
+Separation separation_by(const PlacedPiece& first, const PlacedPiece& second, double face_bias,
+                         const std::function<bool(const Separation&)>& allowed) {
+  return best_separation(first, second, std::numeric_limits<double>::infinity(), face_bias, allowed);
 }
 
 double separation_along(const PlacedPiece& first, const PlacedPiece& second, const Separation& earlier) {

@@ -1,6 +1,7 @@
 // How far two convex polyhedra are apart, or how deep one is in the other.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "engine/mesh/convex_pieces.h"
@@ -33,6 +34,10 @@ struct Separation {
 // a face only if it is better by `face_bias` [m]; 0 gives the exact answer. Stops at the first axis with more than `enough`
 // [m].
 Separation separation(const PlacedPiece& first, const PlacedPiece& second, double enough, double face_bias = 0);
+
+// The best of those features for which `allowed` holds; a distance of minus infinity if there is none.
+Separation separation_by(const PlacedPiece& first, const PlacedPiece& second, double face_bias,
+                         const std::function<bool(const Separation&)>& allowed);
 
 // The same along the feature found earlier, at the pieces' present places.
 double separation_along(const PlacedPiece& first, const PlacedPiece& second, const Separation& earlier);

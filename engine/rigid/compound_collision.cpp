@@ -110,6 +110,7 @@ void CompoundCollision::keep(const std::vector<Numbers>& near, const btCollision
     } else {
       btCollisionAlgorithmConstructionInfo info(m_dispatcher, 1);
       kept.push_back({numbers, std::make_unique<PolyhedronCollision>(info, ranges_, &first, &second)});
+      kept.back().collision->ask_for_surfaces();
     }
   }
   drop_before({std::numeric_limits<int>::max(), 0});

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "engine/rigid/homes.h"
 #include "engine/rigid/polyhedron_shape.h"
@@ -37,6 +39,45 @@ double fastest_approach(const btCollisionObjectWrapper& first, const btCollision
          radius_of(*first.getCollisionShape()) * a.getAngularVelocity().length() +
          radius_of(*second.getCollisionShape()) * b.getAngularVelocity().length();
 }
+
+// A piece of a block that may meet something in a direction, by what it is of the block's surface. All is so of a convex block.
+class SurfaceSide {
+ public:
+  SurfaceSide(const btCollisionObjectWrapper& piece, const Eigen::Vector3d& direction)
+      : piece_(static_cast<const PolyhedronShape&>(*piece.getCollisionShape()).piece()),
+        direction_(from_bullet(piece.getWorldTransform().getBasis().transpose() * to_bullet(direction))) {
+    const btCollisionShape* block = piece.getCollisionObject()->getCollisionShape();
+    if (block->isCompound()) compound_ = static_cast<const CompoundShape*>(block);
+  }
+
+  [[nodiscard]] bool parts_at_face(std::int32_t face) const { return !piece_.faces[face].inner; }
+
+  // The direction must lie between the normals beside the edge.
+  [[nodiscard]] bool parts_at_edge(std::int32_t number) const {
+    if (compound_ == nullptr) return true;
+    constexpr double rounding = 1e-6;
+    const auto& edge = piece_.edges[number];
+    const double widest = edge.beside[0].dot(edge.beside[1]) - rounding;
+    return !edge.inner && direction_.dot(edge.beside[0]) > widest && direction_.dot(edge.beside[1]) > widest;
+  }
+
+  // One of the foremost corners, up to `slack` behind the first [m], is a corner of the block's that stands out.
+  [[nodiscard]] bool stands_out(double slack) const {
+    if (compound_ == nullptr) return true;
+    double foremost = -std::numeric_limits<double>::infinity();
+    for (const auto& vertex : piece_.vertices) foremost = std::max(foremost, direction_.dot(vertex));
+    for (std::size_t i = 0; i < piece_.vertices.size(); ++i) {
+      if (direction_.dot(piece_.vertices[i]) >= foremost - slack && compound_->stands_out(piece_.nodes[i], direction_))
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  const mesh::ConvexPiece& piece_;
+  Eigen::Vector3d direction_;                // in the block's frame
+  const CompoundShape* compound_ = nullptr;  // null: a convex block
+};
 
 }  // namespace
 
@@ -98,6 +139,20 @@ bool PolyhedronCollision::far(const Pair& pair) const {
   return manifold_ == nullptr && separation_.distance - moved_ > 1.01 * (reach + moved_more);
 }
 
+bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separation& at) const {
+  using Feature = packing::Separation::Feature;
+  const SurfaceSide first(*pair.first, at.normal), second(*pair.second, -at.normal);
+  switch (at.feature) {
+    case Feature::face_of_first:
+      return first.parts_at_face(at.of_first) && second.stands_out(ranges_.still);
+    case Feature::face_of_second:
+      return second.parts_at_face(at.of_second) && first.stands_out(ranges_.still);
+    case Feature::edges:
+      return first.parts_at_edge(at.of_first) && second.parts_at_edge(at.of_second);
+  }
+  std::abort();
+}
+
 ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
   static thread_local PlacedPiece a;
   static thread_local PlacedPiece b;
@@ -109,6 +164,14 @@ ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
     separation_ = packing::separation(a, b, enough, ranges_.face_bias);
   evaluated_reach_ = pair.reach;
   if (separation_.distance > pair.reach) return {};
+  if (only_surfaces_ && !on_surfaces(pair, separation_)) {
+    // A block that slides over another's pieces comes upon the faces between them from the side, which are not there. What is
+    // deep inside is pushed out by any face, lest it falls through.
+    const auto real =
+        packing::separation_by(a, b, ranges_.face_bias, [&](const packing::Separation& at) { return on_surfaces(pair, at); });
+    if (separation_.distance > 0 && real.distance <= 0) return {};
+    if (real.distance > -ranges_.near) separation_ = real;
+  }
   return contact_points(a, b, separation_, pair.reach);
 }
 

@@ -32,6 +32,10 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
                       const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second)
       : btActivatingCollisionAlgorithm(info, first, second), ranges_(ranges) {}
+
+  // Of pieces of blocks: what they meet at must be a face or edge of the blocks' surfaces.
+  void ask_for_surfaces() { only_surfaces_ = true; }
+
   ~PolyhedronCollision() override { drop_manifold(); }
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
@@ -64,12 +68,14 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
  private:
   [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
   [[nodiscard]] ContactPoints evaluate(const Pair& pair);
+  [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
   void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
   void move_points(const Pair& pair, bool evaluated);
   void drop_manifold();
 
   const ContactRanges& ranges_;
+  bool only_surfaces_ = false;
   btPersistentManifold* manifold_ = nullptr;
   btTransform relative_;         // pose of the second in the first's frame when evaluated
   double moved_ = 0;             // since then, at most [m]

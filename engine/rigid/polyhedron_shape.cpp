@@ -1,6 +1,7 @@
 #include "engine/rigid/polyhedron_shape.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace scree::rigid {
 
@@ -35,11 +36,21 @@ void PolyhedronShape::calculateLocalInertia(btScalar mass, btVector3& inertia) c
   inertia *= mass * radius_ * radius_;
 }
 
-CompoundShape::CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces) {
+CompoundShape::CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces,
+                             std::vector<std::vector<Eigen::Vector3d>> surface_edges)
+    : surface_edges_(std::move(surface_edges)) {
   for (const auto& piece : pieces) {
     addChildShape(btTransform::getIdentity(), piece.get());
     radius_ = std::max(radius_, piece->radius());
   }
+}
+
+// Of a surface that is curved inwards, or met at a small angle, each node has a neighbour that is a little further.
+bool CompoundShape::stands_out(std::int32_t node, const Eigen::Vector3d& direction) const {
+  constexpr double a_little = 0.2;
+  const auto& edges = surface_edges_[static_cast<std::size_t>(node)];
+  return !edges.empty() &&
+         std::all_of(edges.begin(), edges.end(), [&](const Eigen::Vector3d& edge) { return edge.dot(direction) < a_little; });
 }
 
 double radius_of(const btCollisionShape& shape) {

@@ -42,12 +42,17 @@ class PolyhedronShape final : public btConvexInternalShape {
 // A block of several pieces, which all have its frame and must outlive it.
 class CompoundShape final : public btCompoundShape {
  public:
-  explicit CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces);
+  // With the edges of its surface as by mesh::surface_edges, in its frame.
+  CompoundShape(const std::vector<std::unique_ptr<PolyhedronShape>>& pieces,
+                std::vector<std::vector<Eigen::Vector3d>> surface_edges);
 
   [[nodiscard]] double radius() const { return radius_; }
+  // Whether none of the surface's edges leads from the node further in this direction.
+  [[nodiscard]] bool stands_out(std::int32_t node, const Eigen::Vector3d& direction) const;
 
  private:
   double radius_ = 0;
+  std::vector<std::vector<Eigen::Vector3d>> surface_edges_;
 };
 
 // Of the smallest sphere about the origin that holds a shape of these two kinds [m].

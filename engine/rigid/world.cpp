@@ -80,6 +80,9 @@ Pose operator*(const Pose& outer, const Pose& inner) {
 mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
   for (auto& vertex : piece.vertices) vertex = by * vertex;
   for (auto& face : piece.faces) face.normal = by.rotation * face.normal;
+  for (auto& edge : piece.edges) {
+    for (auto& normal : edge.beside) normal = by.rotation * normal;
+  }
   return piece;
 }
 
@@ -172,7 +175,11 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   }
   btCollisionShape* shape = item.pieces.front().get();
   if (item.pieces.size() > 1) {
-    item.compound = std::make_unique<CompoundShape>(item.pieces);
+    auto edges = mesh::surface_edges(mesh, block);
+    for (auto& of_node : edges) {
+      for (auto& edge : of_node) edge = inverse(item.frame).rotation * edge;
+    }
+    item.compound = std::make_unique<CompoundShape>(item.pieces, std::move(edges));
     shape = item.compound.get();
   }
   item.radius = radius_of(*shape);

@@ -1,5 +1,7 @@
 // Blocks that are not convex: an L that stands on its foot with the upper limb overhanging.
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -58,6 +60,44 @@ TEST(Compounds, TipOntoTwoEdgesAndRestThereWithoutOverlap) {
   EXPECT_LT(packing.settled->simulated_time, 2);
   EXPECT_NEAR(packing.settled->top, std::sqrt(5.0) * width, 1e-6);
   EXPECT_LT(packing.settled->max_penetration, 1e-7);
+}
+
+// A fixed plate of 20 x 4 x 2 cells of 0.1 m, its top at z = 0, in tetrahedra that share their nodes. A cell is left out at the
+// far end, so that it is not convex.
+mesh::BlockMesh<3> dented_plate() {
+  constexpr double cell = 0.1;
+  constexpr std::array<int, 3> cells{20, 4, 2};
+  mesh::BlockMesh<3> mesh;
+  const BodyId body = mesh.bodies.push_back({"plate", MaterialId{0}, true, Vector3d::Zero()});
+  const auto node = [&](int x, int y, int z) { return NodeId((z * (cells[1] + 1) + y) * (cells[0] + 1) + x); };
+  for (int z = 0; z <= cells[2]; ++z) {
+    for (int y = 0; y <= cells[1]; ++y) {
+      for (int x = 0; x <= cells[0]; ++x) mesh.nodes.push_back(cell * Vector3d(x, y - cells[1] / 2.0, z - cells[2]));
+    }
+  }
+  for (int z = 0; z < cells[2]; ++z) {
+    for (int y = 0; y < cells[1]; ++y) {
+      for (int x = 0; x < cells[0]; ++x) {
+        if (x + 1 == cells[0] && y == 0 && z + 1 == cells[2]) continue;
+        const auto corner = [&](int i) { return node(x + (i & 1), y + ((i >> 1) & 1), z + ((i >> 2) & 1)); };
+        for (const auto& [a, b] : {std::pair{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}) {
+          mesh.elements.push_back({corner(0), corner(a), corner(b), corner(7)});
+        }
+      }
+    }
+  }
+  mesh.blocks.push_back({body, {0, mesh.nodes.size()}, {0, mesh.elements.size()}});
+  return mesh;
+}
+
+TEST(Compounds, LetABlockSlideOverTheirElementsAsOverASolid) {
+  mesh::BlockMesh<3> mesh = dented_plate();
+  const BlockId box = add_box(mesh, {0.1, 0.1, 0.1}, {0.2, 0.013, 0.05}, false, {2.2, 0, 0});
+  const Pose pose = settle(mesh, material(0.3), for_time(1)).poses[box];
+  const double way = 2.2 * 2.2 / (2 * 0.3 * g);
+  EXPECT_NEAR(pose.translation.x(), way, 2.2 / 240) << "the first step slows it down as a whole";
+  EXPECT_LT(pose.translation.tail<2>().norm(), 1e-9);
+  EXPECT_LT(pose.rotation.vec().norm(), 1e-9);
 }
 
 TEST(Compounds, AreStoppedHoweverFastTheyCome) {
