@@ -25,6 +25,11 @@ void remove_frames(const fs::path& folder, const std::string& name, const std::s
 
 }  // namespace
 
+void remove_series(const fs::path& directory, const std::string& name) {
+  fs::remove(directory / (name + ".pvd"));
+  if (fs::is_directory(directory / name)) remove_frames(directory / name, name, {});
+}
+
 Series::Series(fs::path directory, std::string name, std::optional<double> keep_until)
     : directory_(std::move(directory)), index_(directory_ / (name + ".pvd")), name_(std::move(name)) {
   try {

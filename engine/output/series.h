@@ -15,6 +15,9 @@
 
 namespace scree::output {
 
+// Removes a series, the .pvd first. Throws std::filesystem::filesystem_error.
+void remove_series(const std::filesystem::path& directory, const std::string& name);
+
 class Series {
  public:
   // A series `name`.pvd in `directory` with its data in `directory`/`name`/; the .pvd appears with the first frame. An older

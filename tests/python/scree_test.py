@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 
 import numpy
@@ -90,6 +91,19 @@ class Packings(unittest.TestCase):
     def setUpClass(cls):
         cls.scene = scree.Scene.from_text(STONES)
         cls.packing = scree.settle(cls.scene)
+
+    def test_several_threads_settle_as_one_does(self):
+        hashes = {}
+
+        def settle(number):
+            hashes[number] = scree.settle(self.scene).nodes.tobytes()
+
+        threads = [threading.Thread(target=settle, args=(number,)) for number in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(hashes, {number: self.packing.nodes.tobytes() for number in range(3)})
 
     def test_the_stones_lie_on_the_floor(self):
         self.assertTrue(self.packing.report["at_rest"])
@@ -176,6 +190,8 @@ class Heatings(unittest.TestCase):
         self.assertEqual(heating.time, 3600)
         with self.assertRaisesRegex(scree.InputError, "must be at least 3600 s"):
             heating.advance_to(60)
+        with self.assertRaisesRegex(ValueError, "must be a number"):
+            heating.advance_to(math.inf)
 
     def test_heat_that_crosses_contacts_is_the_heat_the_stones_take_up(self):
         scene = scree.Scene.from_text(STONES, {"heat.tolerance": "1 mK"})
@@ -224,6 +240,11 @@ class Module(unittest.TestCase):
         self.assertEqual(set(stub), real(scree))
         for name in ["Scene", "Packing", "Heating"]:
             self.assertEqual(set(stub[name]) - {"__init__"}, real(getattr(scree, name)) - {"__init__"}, name)
+
+    def test_a_number_of_threads_that_cannot_be_is_refused(self):
+        for count in (0, -1, 10**6):
+            with self.assertRaisesRegex(ValueError, "1 to 1024"):
+                scree.use_threads(count)
 
     def test_everything_has_a_docstring(self):
         for name in ["Scene", "Packing", "Heating"]:

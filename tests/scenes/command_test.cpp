@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scenes/scene_run.h"
+#include "tools/run/file_lock.h"
 
 namespace scree::test {
 namespace {
@@ -108,6 +109,29 @@ TEST(Command, EstimatesTheSpaceErrorWhenAskedTo) {
   };
   EXPECT_GT(largest("0.02") / largest("0.01"), 2);
   EXPECT_NE(contents(directory / "0.01/heat/heat_000001.vtu").find("space_error"), std::string::npos);
+}
+
+TEST(Command, LeavesNothingOfAnEarlierRunThatThisOneDoesNotMake) {
+  const auto directory = fresh_directory("second_run");
+  ASSERT_EQ(scree("run " + scene("bars_and_joint") + " --quiet --set heat.until=\"1 h\" --out " + directory.string()).status,
+            0);
+  const std::set<std::string> of_heat{"heat.pvd", "contacts.pvd", "probes.csv", "heat.restart.h5"};
+  for (const std::string& file : of_heat) EXPECT_TRUE(std::filesystem::exists(directory / file)) << file;
+  ASSERT_EQ(scree("run " + scene("falling_cube") + " --quiet --out " + directory.string()).status, 0);
+  for (const std::string& file : of_heat) EXPECT_FALSE(std::filesystem::exists(directory / file)) << file;
+  EXPECT_TRUE(std::filesystem::is_empty(directory / "heat"));
+  EXPECT_TRUE(std::filesystem::exists(directory / "settle.pvd"));
+}
+
+TEST(Command, RefusesADirectoryThatAnotherRunWritesTo) {
+  const auto directory = fresh_directory("taken");
+  std::filesystem::create_directories(directory);
+  const auto lock = run::FileLock::take(directory / ".lock", run::FileLock::Kind::exclusive, run::FileLock::Heirs::none);
+  ASSERT_TRUE(lock);
+  const Outcome outcome = scree("run " + scene("slab") + " --quiet --out " + directory.string());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.text.find("another run writes there"), std::string::npos) << outcome.text;
+  EXPECT_FALSE(std::filesystem::exists(directory / "summary.json"));
 }
 
 TEST(Command, DrawsARunWithoutAScreen) {

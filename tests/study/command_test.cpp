@@ -298,6 +298,21 @@ TEST(StudyCommand, DrawsItsTable) {
             study.file.parent_path());
   EXPECT_EQ(ended.status, 0) << ended.text;
   EXPECT_GT(fs::file_size(study.out / "warm.png"), 5000u);
+  // What gnuplot would take for a command, an escape or the end of a text is a part of it.
+  const fs::path odd = study.file.parent_path() / "a `touch run`, \"b\\n'c.png";
+  std::ofstream(study.file.parent_path() / "plot.sh")
+      << SCREE_PROGRAM << " plot " << study.out.string()
+      << " --x contact.stiffness_factor --y warm --x-label 'x `touch run`' --picture "
+      << R"sh("a \`touch run\`, \"b\\n'c.png")sh";
+  const Ended drawn = shell("cd " + study.file.parent_path().string() + " && sh plot.sh", study.file.parent_path());
+  EXPECT_EQ(drawn.status, 0) << drawn.text;
+  EXPECT_TRUE(fs::exists(odd));
+  EXPECT_FALSE(fs::exists(study.file.parent_path() / "run"));
+  EXPECT_EQ(shell(std::string(SCREE_PROGRAM) + " plot " + study.out.string() +
+                      " --x contact.stiffness_factor --y warm --picture nowhere/x.png",
+                  study.file.parent_path())
+                .status,
+            2);
 }
 
 }  // namespace

@@ -130,6 +130,9 @@ TEST(ReadStudy, RefusesFiguresThatTheScenesRunsCannotReport) {
     return wrong_with("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h]}]\nreport: [" + report + "]\n");
   };
   EXPECT_EQ(with("heat.probes.top.temperature"), "accepted");
+  for (const char* name : {"\"\"", "\".\"", "{column: \"\", path: blocks}"}) {
+    EXPECT_THAT(with(name), HasSubstr("must be the name of a column")) << name;
+  }
   EXPECT_THAT(with("heat.probes.tip.temperature"), HasSubstr("s.yaml:3:10: report is tip (must be a probe of the scene). Did "
                                                              "you mean top?"));
   EXPECT_THAT(with("{column: t, probe: tip, reaches: 350}"), HasSubstr("must be a probe of the scene"));

@@ -161,8 +161,10 @@ int run(const Arguments& arguments) {
   const std::string reference = compare_all(study, finest_run, runs);
   mark_front(runs);
   write_text(directory / "accuracy.csv", to_csv(runs));
-  draw(directory / "accuracy.csv", directory / "accuracy.png");
   fmt::print("{}", to_text(runs, observed_orders(runs), reference));
+  if (!draw(runs, directory / "accuracy.csv", directory / "accuracy.png")) {
+    fmt::print("no run has an error above 0, so there is nothing to draw on logarithmic axes\n");
+  }
   const bool all_ran = std::all_of(runs.begin(), runs.end(), [](const Measured& run) { return run.steps > 0; });
   return all_ran ? 0 : 1;
 }

@@ -10,8 +10,13 @@ namespace scree::accuracy {
 
 namespace {
 
-// Whether a finer mesh leaves the blocks what they are.
+// Whether there is a finer mesh, and it leaves the blocks what they are. The mesh of a file other than a surface is what it is.
 bool mesh_can_vary(const Scene& scene) {
+  const auto is_given = [](const mesh::BodySpec& body) {
+    const auto* file = std::get_if<mesh::MeshFile>(&body.shape);
+    return file != nullptr && file->path.extension() != ".stl";
+  };
+  if (std::all_of(scene.bodies.begin(), scene.bodies.end(), is_given)) return false;
   return !scene.settle && !scene.packing &&
          std::none_of(scene.bodies.begin(), scene.bodies.end(),
                       [](const mesh::BodySpec& body) { return body.blocks == mesh::BlockRule::per_element; });
@@ -23,7 +28,8 @@ void refuse_mesh_factors(const Scene& scene) {
   problem.key = "--mesh";
   problem.value = "given";
   problem.rule =
-      "must not be varied where blocks are single elements, fall, or come from a packing file: it would be another pile";
+      "must not be varied where blocks are single elements, fall, or come from a packing file (it would be another pile), nor "
+      "where all meshes are files";
   problem.suggestion = "Vary --tolerance, --integrator, --contact or --blocks";
   throw InputError(problem);
 }

@@ -1,5 +1,7 @@
 #include "tools/accuracy/report.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tools/run/gnuplot.h"
@@ -18,7 +20,7 @@ std::string word(const std::string& model) {
 
 // Both panels, with the runs that no other beats joined by a line. %1 is the table, %2 the picture.
 constexpr const char* plot = R"(set terminal pngcairo size 1200,520 font "DejaVu Sans,12" background "white"
-set output "{picture}"
+set output {picture}
 set datafile separator comma
 set logscale xy
 set format y "10^{{%T}}"
@@ -29,12 +31,12 @@ set ylabel "largest error at the probes [K]"
 set key bottom left
 set multiplot layout 1,2
 set xlabel "wall time of contacts, assembly and heat [s]"
-plot "{csv}" using (strcol(17) eq "1" ? $9 : NaN):14 with points pointtype 7 pointsize 1.4 linecolor "#c23b22" title "no run is faster and better", \
-     "{csv}" using (strcol(17) eq "0" ? $9 : NaN):14 with points pointtype 6 pointsize 1.2 linecolor "#3d4a8f" title "beaten"
+plot {csv} using (strcol(17) eq "1" ? $9 : NaN):14 with points pointtype 7 pointsize 1.4 linecolor "#c23b22" title "no run is faster and better", \
+     {csv} using (strcol(17) eq "0" ? $9 : NaN):14 with points pointtype 6 pointsize 1.2 linecolor "#3d4a8f" title "beaten"
 set xlabel "nodes"
-stats "{csv}" using 6 nooutput
+stats {csv} using ($6 > 0 ? $6 : NaN) nooutput
 set xrange [10**floor(log10(STATS_min)) : 10**(floor(log10(STATS_max)) + 1)]  # they may all be the same
-plot "{csv}" using 6:14 with points pointtype 7 pointsize 1.2 linecolor "#3d4a8f" notitle
+plot {csv} using ($6 > 0 ? $6 : NaN):14 with points pointtype 7 pointsize 1.2 linecolor "#3d4a8f" notitle
 unset multiplot
 )";
 
@@ -73,9 +75,13 @@ std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>&
   return text;
 }
 
-void draw(const std::filesystem::path& csv, const std::filesystem::path& picture) {
-  const std::string script = fmt::format(plot, fmt::arg("csv", csv.string()), fmt::arg("picture", picture.string()));
+bool draw(const std::vector<Measured>& runs, const std::filesystem::path& csv, const std::filesystem::path& picture) {
+  const auto has_a_place = [](const Measured& run) { return run.nodes > 0 && run.max_error.value_or(0) > 0; };
+  if (std::none_of(runs.begin(), runs.end(), has_a_place)) return false;
+  const std::string script = fmt::format(plot, fmt::arg("csv", run::gnuplot_text(csv.string())),
+                                         fmt::arg("picture", run::gnuplot_text(picture.string())));
   run::draw_by_gnuplot(script, picture);
+  return true;
 }
 
 }  // namespace scree::accuracy

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,6 +32,10 @@ struct PlacedPacking {
 struct AnyPacking {
   std::variant<PlacedPacking<2>, PlacedPacking<3>> packing;
 };
+
+// Gmsh and Bullet keep lengths for the whole process: only one thread at a time may mesh and settle. To be called without
+// Python's lock.
+std::unique_lock<std::mutex> alone();
 
 // Lets Ctrl-C stop a long computation: called without Python's lock, takes it for a moment.
 void check_signals();

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <pybind11/stl.h>
 
 #include <map>
@@ -40,6 +42,7 @@ std::unique_ptr<AnyHeating> heat(const SceneSource& source, const AnyPacking& pa
 }
 
 void advance(AnyHeating& self, double time) {
+  if (!std::isfinite(time)) throw py::value_error("the time must be a number");
   self.now.reset();
   const py::gil_scoped_release others_may_run;
   self.use([&](auto& heating) { heating.advance_to(time, [](double) { check_signals(); }); });

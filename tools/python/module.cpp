@@ -8,6 +8,11 @@ namespace scree::python {
 
 namespace py = pybind11;
 
+std::unique_lock<std::mutex> alone() {
+  static std::mutex one_at_a_time;
+  return std::unique_lock(one_at_a_time);
+}
+
 void check_signals() {
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -27,8 +32,12 @@ PYBIND11_MODULE(scree, module) {
   module.doc() = "Heat in heaps: settle piles of blocks and heat them. SI units, temperatures in kelvin.";
   module.attr("__version__") = scree::version();
   module.def(
-      "use_threads", [](int count) { scree::use_threads(std::max(1, count)); }, py::arg("count"),
-      "Computes with so many threads from here on. No result depends on it.");
+      "use_threads",
+      [](int count) {
+        if (count < 1 || count > 1024) throw py::value_error("the number of threads must be 1 to 1024");
+        scree::use_threads(count);
+      },
+      py::arg("count"), "Computes with so many threads from here on. No result depends on it.");
   scree::python::bind_errors(module);
   scree::python::bind_scene(module);
   scree::python::bind_packing(module);

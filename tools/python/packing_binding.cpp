@@ -18,6 +18,7 @@ AnyPacking with_places(packing::Packing<dim> packing) {
 
 AnyPacking settle(const SceneSource& source) {
   const py::gil_scoped_release others_may_run;
+  const auto lock = alone();
   const auto progress = [](double) { check_signals(); };
   if (source.scene.dimension == 2) return with_places(make_packing<2>(source.scene, progress));
   return with_places(make_packing<3>(source.scene, progress));

@@ -28,6 +28,7 @@ py::object run(const SceneSource& source, const std::string& out, bool error_est
     const KeptHandler keeps_ctrl_c(SIGINT);
     const KeptHandler keeps_termination(SIGTERM);
     const py::gil_scoped_release others_may_run;
+    const auto lock = alone();
     Progress progress(ProgressMode::quiet);
     run::run_scene(source.scene, files, run::Start::fresh, progress,
                    error_estimate ? run::SpaceErrors::estimated : run::SpaceErrors::left_out);

@@ -10,6 +10,15 @@
 
 namespace scree::run {
 
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += c;
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
 void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& picture) {
   std::error_code none_there;
   std::filesystem::remove(picture, none_there);

@@ -8,6 +8,7 @@
 #include "contact/find_contacts.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"
+#include "tools/run/earlier_results.h"
 
 namespace scree::run {
 
@@ -88,6 +89,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   outcome.pile = find_pile(context, std::move(packing));
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
                                 [&] { return heat_model(scene, outcome.pile); });
+  remove_earlier(context);
   if (const auto window = effective_window<dim>(scene)) {
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
       return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, *window);

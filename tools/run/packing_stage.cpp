@@ -9,6 +9,7 @@
 #include "engine/output/read_vtu.h"
 #include "engine/output/series.h"
 #include "engine/rigid/settle.h"
+#include "tools/run/earlier_results.h"
 #include "tools/run/frames.h"
 #include "tools/run/keys.h"
 #include "tools/run/preflight.h"
@@ -81,6 +82,7 @@ packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   check_clearance(context.scene, blocks);
   check_heat(context.scene, blocks);
+  remove_earlier(context);
   if (packing::stored_key(context.files.packing()) == key) {
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
     return {packing::read<3>(context.files.packing()), true};

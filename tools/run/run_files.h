@@ -13,6 +13,7 @@ struct RunFiles {
   [[nodiscard]] std::filesystem::path packing() const { return directory / "packing.h5"; }
   [[nodiscard]] std::filesystem::path probes() const { return directory / "probes.csv"; }
   [[nodiscard]] std::filesystem::path restart() const { return directory / "heat.restart.h5"; }
+  [[nodiscard]] std::filesystem::path lock() const { return directory / ".lock"; }  // held while a run writes here
 };
 
 }  // namespace scree::run

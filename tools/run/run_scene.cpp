@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
 #include "engine/base/atomic_file.h"
 #include "tools/run/certificate.h"
+#include "tools/run/earlier_results.h"
+#include "tools/run/file_lock.h"
 #include "tools/run/summary.h"
 #include "tools/scene/doctor.h"
 #include "tools/scene/read_scene.h"
@@ -26,14 +29,31 @@ void write_summary(const RunFiles& files, const Json& summary) {
   write_text(files.summary(), summary.dump(2) + "\n");
 }
 
-void prepare_directory(const Scene& scene, const RunFiles& files) {
+// Two runs into one directory would each take the other's files away.
+FileLock claim_directory(const RunFiles& files) {
   std::error_code error;
   std::filesystem::create_directories(files.directory, error);
   if (error)
     throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
-  write_text(files.scene(), scene.effective);
-  // Until the run ends its summary says that it has not.
-  write_summary(files, opening_summary(scene, "running"));
+  auto lock = FileLock::take(files.lock(), FileLock::Kind::exclusive, FileLock::Heirs::none);
+  if (!lock) throw RunError(fmt::format("{}: another run writes there. Choose another --out", files.directory.string()));
+  return std::move(*lock);
+}
+
+// Until the run ends its summary says that it has not.
+Json open_summary(const RunContext& context) {
+  write_text(context.files.scene(), context.scene.effective);
+  Json summary = opening_summary(context.scene, "running");
+  summary["error_estimate"] = context.estimate_space_error;
+  write_summary(context.files, summary);
+  return summary;
+}
+
+// A run that goes on estimates what it did before.
+bool was_estimated(const RunFiles& files) {
+  std::ifstream stream(files.summary());
+  const Json summary = Json::parse(stream, nullptr, false);
+  return summary.is_object() && summary.value("error_estimate", false);
 }
 
 void say_models(const Scene& scene, Progress& progress) {
@@ -74,7 +94,10 @@ Ending run_stages(RunContext& context, Json& summary) {
     auto reasons = unsound(scene, *outcome.packing.settled, free_blocks(outcome.packing.mesh));
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
-  if (!scene.heat) return {"complete", 0, {}};
+  if (!scene.heat) {
+    remove_earlier(context);
+    return {"complete", 0, {}};
+  }
   const HeatOutcome<dim> heat = heat_stage(context, std::move(outcome.packing));
   add_heat(summary, scene, heat);
   auto reasons = unsound(scene, heat.state);
@@ -101,10 +124,12 @@ Ending run_to_an_end(RunContext& context, Json& summary) {
 
 int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
   catch_interrupts();
-  prepare_directory(scene, files);
+  const FileLock lock = claim_directory(files);
   say_models(scene, progress);
-  RunContext context{scene, files, progress, start == Start::resume, space_errors == SpaceErrors::estimated};
-  Json summary = opening_summary(scene, "running");
+  const bool resume = start == Start::resume;
+  RunContext context{scene, files, progress, resume,
+                     space_errors == SpaceErrors::estimated || (resume && was_estimated(files))};
+  Json summary = open_summary(context);
   const Ending ending = run_to_an_end(context, summary);
   summary["status"] = ending.status;
   if (!ending.reasons.empty()) summary["reasons"] = ending.reasons;

@@ -104,7 +104,7 @@ bool Conductor::try_start(const PlannedRun& run) {
     after_each_();
     return true;
   }
-  auto lock = FileLock::take(files_.packing_lock(run.packing), FileLock::Kind::exclusive, FileLock::Heirs::none);
+  auto lock = run::FileLock::take(files_.packing_lock(run.packing), run::FileLock::Kind::exclusive, run::FileLock::Heirs::none);
   if (!lock) return false;
   // Somebody may have put it there just now.
   if (fs::exists(packing)) lock.reset();
@@ -112,7 +112,7 @@ bool Conductor::try_start(const PlannedRun& run) {
   return true;
 }
 
-void Conductor::start(const PlannedRun& run, std::optional<FileLock> settling) {
+void Conductor::start(const PlannedRun& run, std::optional<run::FileLock> settling) {
   const run::RunFiles own = files_.run(run.directory);
   fs::create_directories(own.directory);
   fs::remove(files_.outcome(run.directory));

@@ -11,7 +11,7 @@
 
 #include "engine/base/progress.h"
 #include "tools/run/child_process.h"
-#include "tools/study/file_lock.h"
+#include "tools/run/file_lock.h"
 #include "tools/study/forecast.h"
 #include "tools/study/plan.h"
 #include "tools/study/study_files.h"
@@ -37,14 +37,14 @@ class Conductor {
   struct Active {
     const PlannedRun* run;
     run::ChildProcess process;
-    std::optional<FileLock> settling;  // it makes the packing that others wait for
+    std::optional<run::FileLock> settling;  // it makes the packing that others wait for
   };
 
   void choose(const std::vector<PlannedRun>& runs);
   void start_what_can();
   [[nodiscard]] bool has_room() const;
   bool try_start(const PlannedRun& run);
-  void start(const PlannedRun& run, std::optional<FileLock> settling);
+  void start(const PlannedRun& run, std::optional<run::FileLock> settling);
   [[nodiscard]] std::vector<std::string> command_of(const PlannedRun& run) const;
   void publish_packing(Active& active) const;
   void collect();

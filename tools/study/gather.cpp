@@ -102,7 +102,11 @@ std::vector<std::string> paths_not_found(const Study& study, const std::vector<P
   std::vector<std::string> sentences;
   if (summaries.empty()) return sentences;
   for (const Report& report : study.reports) {
-    const auto has = [&](const Json& summary) { return !value_at(summary, report.path).is_null(); };
+    // A figure that is null is there: it says that this run has none.
+    const auto has = [&](const Json& summary) {
+      const auto known = leaves(summary);
+      return !value_at(summary, report.path).is_null() || std::find(known.begin(), known.end(), report.path) != known.end();
+    };
     if (report.path.empty() || std::any_of(summaries.begin(), summaries.end(), has)) continue;
     const auto close = nearest(report.path, leaves(summaries.front()));
     sentences.push_back(fmt::format("{}: report: {} is in no summary.json{}", to_string(report.where), report.path,

@@ -51,21 +51,15 @@ std::string data_block(std::size_t number, const Series& series) {
   return text + "END\n";
 }
 
-std::string quoted(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '"' ? '\'' : c;
-  return fmt::format("\"{}\"", safe);
-}
-
 std::string commands_of(const std::vector<Series>& all, const PlotArguments& arguments, const std::filesystem::path& picture) {
   std::string text = fmt::format(
       "set terminal pngcairo noenhanced size 760,520 font \"DejaVu Sans,12\" background \"white\"\n"
       "set output {}\nset border 3 linewidth 1.2 linecolor \"#404040\"\nset tics nomirror out\n"
       "set grid linetype 1 linecolor \"#dddddd\" linewidth 1\nset key outside top horizontal\n",
-      quoted(picture.string()));
+      run::gnuplot_text(picture.string()));
   for (const std::string& axis : arguments.log_axes) text += fmt::format("set logscale {}\n", axis);
-  text += fmt::format("set xlabel {}\n", quoted(arguments.x_label.empty() ? arguments.x : arguments.x_label));
-  text += fmt::format("set ylabel {}\n", quoted(arguments.y_label.empty() ? arguments.y : arguments.y_label));
+  text += fmt::format("set xlabel {}\n", run::gnuplot_text(arguments.x_label.empty() ? arguments.x : arguments.x_label));
+  text += fmt::format("set ylabel {}\n", run::gnuplot_text(arguments.y_label.empty() ? arguments.y : arguments.y_label));
   std::vector<std::string> plots;
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += data_block(i, all[i]);
@@ -75,7 +69,7 @@ std::string commands_of(const std::vector<Series>& all, const PlotArguments& arg
     const std::string style =
         has_two_at_one_x(all[i]) ? (sure ? "points" : "yerrorbars") : (sure ? "linespoints" : "yerrorlines");
     plots.push_back(fmt::format("$series{} using {} with {} pointtype {} linewidth 1.6 {}", i, sure ? "1:2" : "1:2:3:4", style,
-                                5 + 2 * i, all[i].name.empty() ? "notitle" : "title " + quoted(all[i].name)));
+                                5 + 2 * i, all[i].name.empty() ? "notitle" : "title " + run::gnuplot_text(all[i].name)));
   }
   return text + fmt::format("plot {}\n", fmt::join(plots, ", "));
 }
@@ -133,6 +127,11 @@ int plot_command(const PlotArguments& arguments) {
   const std::filesystem::path picture = arguments.picture.empty()
                                             ? std::filesystem::path(arguments.directory) / (arguments.y + ".png")
                                             : std::filesystem::path(arguments.picture);
+  if (picture.extension() != ".png") refuse("--picture", picture.string(), "must end in .png", "");
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(std::filesystem::absolute(picture).parent_path(), ignored)) {
+    refuse("--picture", picture.string(), "must be in a folder that exists", "");
+  }
   run::draw_by_gnuplot(commands_of(all, arguments, picture), picture);
   fmt::print("{}\n", picture.string());
   return 0;

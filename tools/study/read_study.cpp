@@ -163,7 +163,9 @@ class Reader {
     return factor;
   }
 
-  static Report column(const Checked& item) {
+  Report column(const Checked& item) {
+    const Checked& name = item.is_map ? item.at("column") : item;
+    if (name.sound && (name.text.empty() || name.text == ".")) refuse(name, "must be the name of a column");
     Report report;
     report.where = item.where;
     if (!item.is_map) {

@@ -68,8 +68,8 @@ ProgressMode mode_of(const Arguments& arguments) {
   return arguments.json ? ProgressMode::json : progress_mode(arguments.quiet);
 }
 
-FileLock lock_of(const StudyFiles& files, FileLock::Kind kind) {
-  auto lock = FileLock::take(files.lock(), kind, FileLock::Heirs::children);
+run::FileLock lock_of(const StudyFiles& files, run::FileLock::Kind kind) {
+  auto lock = run::FileLock::take(files.lock(), kind, run::FileLock::Heirs::children);
   if (!lock) {
     throw RunError(fmt::format("{}: another `scree study`, or a run that one has left behind, is at work there. Wait for it",
                                files.directory.string()));
@@ -78,7 +78,7 @@ FileLock lock_of(const StudyFiles& files, FileLock::Kind kind) {
 }
 
 int make_all(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
-  const FileLock lock = lock_of(files, FileLock::Kind::exclusive);
+  const run::FileLock lock = lock_of(files, run::FileLock::Kind::exclusive);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("{} runs", runs.size()));
   Means means;
@@ -99,7 +99,7 @@ int make_one(const Arguments& arguments, const Study& study, const std::vector<P
     problem.rule = fmt::format("must be at most {}, the number of runs", runs.size());
     throw InputError(problem);
   }
-  const FileLock lock = lock_of(files, FileLock::Kind::shared);
+  const run::FileLock lock = lock_of(files, run::FileLock::Kind::shared);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("run {}", arguments.task));
   const Means means{1, given(arguments.threads), available_memory()};

@@ -1,4 +1,4 @@
-#include "tools/study/file_lock.h"
+#include "tools/run/file_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 
 #include "engine/base/check.h"
 
-namespace scree::study {
+namespace scree::run {
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind kind, Heirs heirs) {
   const int inherited = heirs == Heirs::children ? 0 : O_CLOEXEC;
@@ -35,4 +35,4 @@ FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-}  // namespace scree::study
+}  // namespace scree::run

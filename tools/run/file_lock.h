@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace scree::study {
+namespace scree::run {
 
 class FileLock {
  public:
@@ -24,4 +24,4 @@ class FileLock {
   int descriptor_;
 };
 
-}  // namespace scree::study
+}  // namespace scree::run
