@@ -197,6 +197,11 @@ TEST(SceneErrors, NumbersMustBeFiniteAndFit) {
       "are");
 }
 
+TEST(SceneErrors, AFallOfMoreStepsThanAnyoneWaitsForIsRefused) {
+  EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=2 s", "settle.step=1e-10 s"}),
+            "--set settle.step: settle.step is 1e-10 s (must be at least 2e-09 s, for 1e+09 steps to settle.limit)");
+}
+
 TEST(SceneErrors, OverridesAreCheckedWithTheRest) {
   EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=-1", "settle.limti=1", "oops"}),
             "--set oops: oops is not understood (must be key.path=value)\n"

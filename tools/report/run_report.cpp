@@ -147,13 +147,14 @@ void add_errors(Page& page, const Json& heat) {
 void add_joints(Page& page, const Json& summary) {
   if (!summary.contains("joints") || summary["joints"].empty()) return;
   page.heading("Joints");
-  Rows rows{{"between", "law", "contacts", "h [W/m2/K]", "Biot", "flow at the end [W]", "touching [m2]", "overlap [m2]"}};
+  Rows rows{
+      {"between", "law", "contacts", "h [W/m2/K]", "Biot", "net flow [W]", "all flows [W]", "touching [m2]", "overlap [m2]"}};
   for (const Json& joint : summary["joints"]) {
     const double contacts = number(joint, "point_face") + number(joint, "edge_edge") + number(joint, "overlap");
     rows.push_back({escaped(text(joint, "first") + " - " + text(joint, "second")), escaped(text(joint, "law")),
-                    figure(contacts), value_or(joint, "mean_conductance", "no end"), value_or(joint, "biot", "-"),
-                    figure(number(joint, "absolute_flow")), figure(number(joint, "touching_area")),
-                    figure(number(joint, "overlap_area"))});
+                    figure(contacts), value_or(joint, "joint_conductance", "no end"), value_or(joint, "biot", "-"),
+                    figure(number(joint, "flow")), figure(number(joint, "absolute_flow")),
+                    figure(number(joint, "touching_area")), figure(number(joint, "overlap_area"))});
   }
   page.table(rows);
 }

@@ -4,6 +4,12 @@
 
 namespace scree {
 
+namespace {
+
+constexpr double most_steps = 1e9;  // of a fall: more are no fall that anyone waits for
+
+}  // namespace
+
 SettleStage read_settle(const Checked& settle, Problems& problems) {
   SettleStage stage;
   rigid::SettleOptions& options = stage.options;
@@ -32,6 +38,10 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   const Checked& step = settle.at("step");
   if (step.sound && settle.at("limit").sound && options.step > options.limit) {
     problems.push_back(step.problem(step.text, fmt::format("must be at most settle.limit, {:g} s", options.limit)));
+  }
+  if (step.sound && settle.at("limit").sound && options.step < options.limit / most_steps) {
+    problems.push_back(step.problem(step.text, fmt::format("must be at least {:g} s, for {:g} steps to settle.limit",
+                                                           options.limit / most_steps, most_steps)));
   }
   const Checked& gravity = settle.at("gravity");
   if (gravity.sound && options.gravity.norm() == 0) {
