@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/mesh/conforming.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/problems.h"
 
@@ -105,6 +106,7 @@ template <int dim>
 Parts<dim> checked_volume(const BodySpec& body, const RawMesh& raw) {
   check_elements<dim>(body, raw);
   check_faces<dim>(body, raw);
+  if (body.blocks != BlockRule::per_element) expect_conforming<dim>(body, raw);
   if constexpr (dim == 3) check_extra_triangles(body, raw);
   const auto& cells = element_cells<dim>(raw);
   DisjointSets joined(raw.points.size());

@@ -219,6 +219,21 @@ TEST_F(CellFiles, HexahedraAndWedgesOfEitherOrientationAreUsedAsTheyAre) {
   }
 }
 
+// A hexahedron with two wedges above it: on their sides of two triangles they do not meet its quadrilateral.
+TEST_F(CellFiles, AQuadrilateralBesideTrianglesIsRefused) {
+  Points points = cube_points();
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 2.0}, {1.0, 0.0, 2.0}, {0.0, 1.0, 2.0}, {1.0, 1.0, 2.0}})
+    points.push_back({x, y, z});
+  const FileCell hexahedron{Kind::hexahedron, {1, 2, 4, 3, 5, 6, 8, 7}};
+  const std::vector<FileCell> triangles{{Kind::wedge, {5, 6, 7, 9, 10, 11}}, {Kind::wedge, {6, 8, 7, 10, 12, 11}}};
+  EXPECT_THAT(refusal("triangles.msh", msh_text(points, {hexahedron, triangles[0], triangles[1]})),
+              HasSubstr("elements 1 and 2 lie on each other near (0, 0, 1) m, but share no face"));
+  const std::vector<FileCell> lying{{Kind::wedge, {5, 6, 9, 7, 8, 11}}, {Kind::wedge, {6, 10, 9, 8, 12, 11}}};
+  const auto mesh = make_blocks<3>({body_with("lying.msh", msh_text(points, {hexahedron, lying[0], lying[1]}))});
+  EXPECT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_NEAR(total_volume(mesh), 2, 1e-14);
+}
+
 TEST_F(CellFiles, QuadrilateralsAreTheElementsInThePlane) {
   const Points square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const auto mesh = make_blocks<2>({body_with("q.msh", msh_text(square, {{Kind::quadrangle, {1, 2, 3, 4}}}))});

@@ -210,6 +210,31 @@ TEST_F(MeshFiles, OverlappingElementsAreNamed) {
             "(tetrahedrons 1 and 2 lie on the same side of a face). Remove elements that are there twice or overlap");
 }
 
+// A square with a corner above it and one below, each side cut into two tetrahedra.
+TEST_F(MeshFiles, ElementsThatDoNotFitTogetherAreNamed) {
+  const Points points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
+  const std::vector<FileCell> above{{Kind::tetrahedron, {1, 2, 3, 5}}, {Kind::tetrahedron, {1, 3, 4, 5}}};
+  const std::vector<FileCell> alike{{Kind::tetrahedron, {1, 3, 2, 6}}, {Kind::tetrahedron, {1, 4, 3, 6}}};
+  const std::vector<FileCell> across{{Kind::tetrahedron, {1, 4, 2, 6}}, {Kind::tetrahedron, {2, 4, 3, 6}}};
+  EXPECT_EQ(make_blocks<3>({body_with("alike.msh", msh_text(points, both(above, alike)))}).blocks.size(), 1u);
+  const std::string text = msh_text(points, both(above, across));
+  EXPECT_EQ(refusal("across.msh", text),
+            "(elements 1 and 3 lie on each other near (0, 0, 0) m, but share no face). Mesh both sides of that face alike, or "
+            "make two bodies of them, with a joint between them");
+  BodySpec broken = body_with("broken.msh", text);
+  broken.blocks = BlockRule::per_element;
+  EXPECT_EQ(make_blocks<3>({broken}).blocks.size(), 4u);
+}
+
+TEST_F(MeshFiles, ALongEdgeBesideShortOnesIsNamed) {
+  const Points points{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, -1, 0}, {2, -1, 0}};
+  const FileCell above{Kind::triangle, {1, 2, 3}}, left{Kind::triangle, {1, 5, 4}}, right{Kind::triangle, {4, 6, 2}};
+  EXPECT_THAT(refusal<2>("hanging.msh", msh_text(points, {above, left, {Kind::triangle, {5, 6, 4}}, right})),
+              StartsWith("(elements 1 and 2 lie on each other near (0, 0, 0) m"));
+  const FileCell half{Kind::triangle, {1, 4, 3}}, other{Kind::triangle, {4, 2, 3}};
+  EXPECT_EQ(make_blocks<2>({body_with("whole.msh", msh_text(points, {half, other, left, right}))}).blocks.size(), 1u);
+}
+
 TEST_F(MeshFiles, TwoNodesAtOnePlaceAreNamed) {
   const FileCell second{Kind::tetrahedron, {5, 6, 7, 8}};
   EXPECT_EQ(
