@@ -150,8 +150,7 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
   ContactSet<dim> set;
   auto faces = mesh::boundary_faces(mesh);
   const std::size_t all = faces.size();
-  Surface<dim> surface =
-      surface_of(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}, options.left_out));
+  Surface<dim> surface = surface_of(mesh, near_faces(mesh, std::move(faces), {options.tolerance, options.indentation}));
   if (uses(options, Model::semi_spring)) {
     set.semi_springs = all * dim;
     set.semi_edges = dim == 3 ? all * 3 : 0;

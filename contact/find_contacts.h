@@ -22,7 +22,6 @@ struct ContactOptions {
   Model model = Model::semi_spring;
   // Where pairs of bodies differ: of each body with each, both ways. Empty: all pairs have the model above.
   Table<BodyId, Table<BodyId, Model>> pairs{};
-  std::vector<BlockId> left_out{};  // ascending: they touch nothing
 
   [[nodiscard]] Model model_of(BodyId a, BodyId b) const { return pairs.empty() ? model : pairs[a][b]; }
 };

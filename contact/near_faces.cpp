@@ -110,26 +110,20 @@ class NearFaces {
 
 template <int dim>
 Table<FaceId, mesh::Face<dim>> near_faces(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces,
-                                          const ShellOptions& options, const std::vector<BlockId>& without) {
-  const auto kept_of = [&](const auto& is_kept) {
-    Table<FaceId, mesh::Face<dim>> kept;
-    kept.reserve(faces.size());
-    for (const auto& face : faces) {
-      if (is_kept(face)) kept.push_back(face);
-    }
-    return kept;
-  };
-  if (mesh.blocks.size() != mesh.elements.size()) {
-    const NearFaces<dim> near(mesh, faces, options);
-    faces = kept_of([&](const mesh::Face<dim>& face) { return near.is_near(face); });
+                                          const ShellOptions& options) {
+  if (mesh.blocks.size() == mesh.elements.size()) return faces;
+  const NearFaces<dim> near(mesh, faces, options);
+  Table<FaceId, mesh::Face<dim>> kept;
+  kept.reserve(faces.size());
+  for (const auto& face : faces) {
+    if (near.is_near(face)) kept.push_back(face);
   }
-  if (without.empty()) return faces;
-  return kept_of([&](const mesh::Face<dim>& face) { return !std::binary_search(without.begin(), without.end(), face.block); });
+  return kept;
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                         \
   template Table<FaceId, mesh::Face<dim>> near_faces<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>, \
-                                                          const ShellOptions&, const std::vector<BlockId>&);
+                                                          const ShellOptions&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -6,10 +6,9 @@
 namespace scree::contact {
 
 // Leaves out faces of blocks of many elements: those whose element comes near no other block's box. Kept are, in their order,
-// the others, and those around them that share a node with one of them, so that normals at nodes and edges stay what they are;
-// but none of blocks in `without` (ascending).
+// the others, and those around them that share a node with one of them, so that normals at nodes and edges stay what they are.
 template <int dim>
 Table<FaceId, mesh::Face<dim>> near_faces(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces,
-                                          const ShellOptions& options, const std::vector<BlockId>& without = {});
+                                          const ShellOptions& options);
 
 }  // namespace scree::contact

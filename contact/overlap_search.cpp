@@ -189,8 +189,7 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
     }
   }
   if (!any_semi_springs) return areas;
-  const Surface<dim> surface =
-      surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}, options.left_out));
+  const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<std::vector<Share>>(
       surface, options.tolerance, [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; },

@@ -17,6 +17,7 @@
 #include "engine/base/version.h"
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
+#include "engine/packing/remaining.h"
 #include "tools/accuracy/accuracy_command.h"
 #include "tools/command_line/completion.h"
 #include "tools/command_line/manual.h"
@@ -97,7 +98,7 @@ int resume(const Arguments& arguments) {
 
 template <int dim>
 std::string check_report(const scree::Scene& scene) {
-  const auto blocks = scene.packing ? scree::packing::placed_mesh(scree::run::stored_packing<dim>(scene))
+  const auto blocks = scene.packing ? scree::packing::remaining(scree::run::stored_packing<dim>(scene)).mesh
                                     : scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers());
   scree::run::check_heat(scene, blocks);
   return scree::to_text(scree::check_scene(scene, blocks));

@@ -190,11 +190,12 @@ std::vector<double> column_values(const std::vector<Probe<dim>>& probes, const E
 }
 
 template <int dim>
-std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh) {
+std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh,
+                                  const Table<BlockId, BlockId>& numbers) {
   std::vector<std::string> lines;
   lines.reserve(probes.size());
   for (const Probe<dim>& probe : probes) {
-    lines.push_back(fmt::format("{}: block {} of {} at {} m{}", probe.name, probe.block.value(),
+    lines.push_back(fmt::format("{}: block {} of {} at {} m{}", probe.name, numbers[probe.block].value(),
                                 mesh.bodies[mesh.blocks[probe.block].body].name, coordinates<dim>(probe.point),
                                 probe.moved > 0 ? fmt::format(", moved by {:.3g} m", probe.moved) : ""));
   }
@@ -211,7 +212,9 @@ template std::vector<std::string> columns(const std::vector<Probe<2>>&);
 template std::vector<std::string> columns(const std::vector<Probe<3>>&);
 template std::vector<double> column_values(const std::vector<Probe<2>>&, const Eigen::VectorXd&, double);
 template std::vector<double> column_values(const std::vector<Probe<3>>&, const Eigen::VectorXd&, double);
-template std::vector<std::string> describe(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&);
-template std::vector<std::string> describe(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&);
+template std::vector<std::string> describe(const std::vector<Probe<2>>&, const mesh::BlockMesh<2>&,
+                                           const Table<BlockId, BlockId>&);
+template std::vector<std::string> describe(const std::vector<Probe<3>>&, const mesh::BlockMesh<3>&,
+                                           const Table<BlockId, BlockId>&);
 
 }  // namespace scree::output

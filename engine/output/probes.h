@@ -64,8 +64,10 @@ std::optional<double> exact_at(const Probe<dim>& probe, double time);
 template <int dim>
 double value_at(const Probe<dim>& probe, const Eigen::VectorXd& nodal);
 
-// "low: block 812 of sphere at [0, 0, 0.06] m" for each probe: the comments of its table.
+// "low: block 812 of sphere at [0, 0, 0.06] m" for each probe, with the block's number from `numbers`: the comments of its
+// table.
 template <int dim>
-std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh);
+std::vector<std::string> describe(const std::vector<Probe<dim>>& probes, const mesh::BlockMesh<dim>& mesh,
+                                  const Table<BlockId, BlockId>& numbers);
 
 }  // namespace scree::output

@@ -143,23 +143,6 @@ TEST(FindContacts, OfABeamAcrossABeamAreSemiEdges) {
   for (const auto& contact : set.contacts) EXPECT_NEAR(point_of(mesh, contact).z(), 0, 1e-14);
 }
 
-TEST(FindContacts, OfABlockThatIsLeftOutAreNoneWhateverTheModel) {
-  const auto mesh =
-      mesh_of<3>({box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(1, 0, 0), at(1, 1, 1)), box<3>(at(2, 0, 0), at(1, 1, 1))});
-  for (const Model model : {Model::semi_spring, Model::overlap}) {
-    ContactOptions options;
-    options.model = model;
-    const auto all = find_contacts<3>(mesh, options);
-    options.left_out = {BlockId{0}};
-    const auto rest = find_contacts<3>(mesh, options);
-    EXPECT_EQ(2 * rest.contacts.size(), all.contacts.size());
-    for (const auto& contact : rest.contacts) EXPECT_GT(std::min(contact.owner, contact.target), BlockId{0});
-    double area = 0;
-    for (const auto& [bodies, shared] : overlap_areas<3>(mesh, rest, options)) area += shared;
-    EXPECT_NEAR(area, 1, 1e-14);
-  }
-}
-
 TEST(FindContacts, NeverJoinABlockToItself) {
   std::mt19937 random(3);
   const auto mesh = each_its_own<3>(random_simplices<3>(60, 1.0, 0.5, random));

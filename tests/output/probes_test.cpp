@@ -163,8 +163,9 @@ TEST(Probes, AProbeWithinReachMovesToTheNearestPointOfTheBlocks) {
 TEST(Probes, TheDescriptionNamesBlockBodyAndPlace) {
   const auto mesh = two_tets();
   const auto probes = locate_probes(mesh, {{"low", {0.25, 0.25, 0.125}}, {"high", {2.25, 0.25, -0.5}, 1}});
-  EXPECT_THAT(describe(probes, mesh), ElementsAre("low: block 0 of rock at [0.25, 0.25, 0.125] m",
-                                                  "high: block 1 of stone at [2.25, 0.25, 0] m, moved by 0.5 m"));
+  const Table<BlockId, BlockId> numbers({BlockId{4}, BlockId{7}});
+  EXPECT_THAT(describe(probes, mesh, numbers), ElementsAre("low: block 4 of rock at [0.25, 0.25, 0.125] m",
+                                                           "high: block 7 of stone at [2.25, 0.25, 0] m, moved by 0.5 m"));
 }
 
 }  // namespace

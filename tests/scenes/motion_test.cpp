@@ -1,6 +1,7 @@
 // The scenes that move: scenes/falling_cube, stack_of_cubes, sliding_block, slope, poured_stones, poured_cubes.
 
 #include <cmath>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,46 @@ TEST(PouredStones, SettleTheSameWayTwice) {
     EXPECT_EQ(a.poses[id].translation, b.poses[id].translation);
     EXPECT_EQ(a.poses[id].rotation.coeffs(), b.poses[id].rotation.coeffs());
   }
+}
+
+// Two cubes of 100 degC on a plate, and one beside it that falls for ever.
+TEST(ALostBlock, HasNoPartInTheHeat) {
+  const auto folder = fresh_directory("lost_block");
+  const auto run_with = [&](const std::string& name, const std::string& third) {
+    std::ofstream(folder / (name + ".yaml")) << R"(
+materials: {rock: {density: 2000, conductivity: 3, specific_heat: 900, friction: 0.5}}
+bodies:
+  plate: {box: {size: [1, 1, 0.1], centre: [0, 0, -0.05]}, material: rock, mesh_size: 0.5, fixed: true}
+  cube:
+    box: {size: [0.1, 0.1, 0.1]}
+    material: rock
+    mesh_size: 0.1
+    at: [)" << third << R"({position: [-0.2, 0, 0.051]}, {position: [0.2, 0, 0.051]}]
+settle: {limit: 6 s}
+heat:
+  initial: {plate: 20 degC, cube: 100 degC}
+  boundaries:
+    - {name: flow, body: cube, flow: 100 W}
+    - {name: air, body: cube, convection: {coefficient: 10, surroundings: 20 degC}}
+  sources: [{body: cube, power: 100 kW/m3}]
+  until: 100 s
+output: {every: 100 s}
+)";
+    return test::run_file(folder / (name + ".yaml"), folder / name);
+  };
+  const SceneRun alone = run_with("alone", ""), beside = run_with("beside", "{position: [0.8, 0, 0.1]}, ");
+  EXPECT_EQ(alone.exit_status, 0);
+  EXPECT_EQ(beside.exit_status, 0);
+  EXPECT_EQ(beside.summary["settle"]["lost_blocks"], 1);
+  EXPECT_EQ(beside.summary["settle"]["lost"][0]["block"], 1);
+  const auto ledgers = {alone.summary["heat"]["ledger"], beside.summary["heat"]["ledger"]};
+  for (const auto& [kind, name] : {std::pair("by_applied", "flow"), {"by_surroundings", "air"}}) {
+    const double expected = ledgers.begin()[0][kind][name];
+    EXPECT_GT(std::abs(expected), 100);
+    EXPECT_NEAR(ledgers.begin()[1][kind][name], expected, 1e-6 * std::abs(expected)) << name;
+  }
+  const double stored = ledgers.begin()[0]["stored"];
+  EXPECT_NEAR(ledgers.begin()[1]["stored"], stored, 1e-6 * stored);
 }
 
 // Dice settle at 0.54 +- 0.01 (Baker and Kudrolli 2010), whose friction is not given; ours depends on it.

@@ -54,8 +54,7 @@ const thermal::HeatState& state(const AnyHeating& self) {
 
 py::array temperature(AnyHeating& self) {
   if (!self.now) {
-    const Eigen::VectorXd now = self.use([](const auto& heating) { return heating.temperature(); });
-    self.now = own(std::vector<double>(now.begin(), now.end()));
+    self.now = own(self.use([](const auto& heating) { return heating.pile().places.in_packing(heating.temperature()); }));
   }
   return *self.now;
 }
@@ -97,6 +96,16 @@ py::array contact_member(const py::object& self, auto member_of) {
   });
 }
 
+// A block of every contact, by its number in the packing.
+py::array contact_blocks(const py::object& self, auto member_of) {
+  return self.cast<const AnyHeating&>().use([&](const auto& heating) {
+    std::vector<std::int32_t> blocks;
+    for (const auto& contact : heating.pile().contacts.contacts)
+      blocks.push_back(heating.pile().places.blocks[contact.*member_of(contact)].value());
+    return own(std::move(blocks));
+  });
+}
+
 py::array contact_points(const py::object& self) {
   return self.cast<const AnyHeating&>().use([&](const auto& heating) {
     const auto& pile = heating.pile();
@@ -111,10 +120,9 @@ py::array contact_points(const py::object& self) {
 }
 
 py::dict contacts(const py::object& self) {
-  static_assert(sizeof(BlockId) == sizeof(std::int32_t));
   py::dict table;
-  table["owner"] = contact_member<std::int32_t>(self, []<class C>(const C&) { return &C::owner; });
-  table["target"] = contact_member<std::int32_t>(self, []<class C>(const C&) { return &C::target; });
+  table["owner"] = contact_blocks(self, []<class C>(const C&) { return &C::owner; });
+  table["target"] = contact_blocks(self, []<class C>(const C&) { return &C::target; });
   table["kind"] = contact_member<std::uint8_t>(self, []<class C>(const C&) { return &C::kind; });
   table["area"] = contact_member<double>(self, []<class C>(const C&) { return &C::area; });
   table["gap"] = contact_member<double>(self, []<class C>(const C&) { return &C::gap; });
@@ -133,11 +141,14 @@ void bind_heating(py::module_& module) {
            "Goes on to the scene's end; gives the probes at its output times, as a dict of arrays with 'time' [s].")
       .def_property_readonly(
           "time", [](const AnyHeating& self) { return state(self).time; }, "How far it is [s].")
-      .def_property_readonly("temperature", &temperature, "Of every node now [K]; stays as it is when time goes on.")
+      .def_property_readonly(
+          "temperature", &temperature,
+          "Of every node of the packing now [K], NaN in blocks that left the scene; stays as it is when time goes on.")
       .def_property_readonly("probes", &probes, "Temperature at every probe now [K].")
-      .def_property_readonly("contacts", &contacts,
-                             "Every contact as arrays that look into the heating's memory: owner and target (blocks), kind (0 "
-                             "point-face, 1 edge-edge, 2 overlap), area [m2], gap [m]; and a new array, point [m].")
+      .def_property_readonly(
+          "contacts", &contacts,
+          "Every contact as arrays: kind (0 point-face, 1 edge-edge, 2 overlap), area [m2] and gap [m], which "
+          "look into the heating's memory; owner and target (blocks of the packing) and point [m], copies.")
       .def_property_readonly(
           "contact_flows",
           [](const AnyHeating& self) { return own(self.use([](const auto& heating) { return heating.contact_flows(); })); },

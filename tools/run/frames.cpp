@@ -18,12 +18,12 @@ auto collect(const Contacts& contacts, Get get) {
 }  // namespace
 
 template <int dim>
-std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh) {
+std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, BlockId>& numbers) {
   std::vector<std::int32_t> blocks, bodies, materials;
   for (const BlockId id : mesh.blocks.ids()) {
     const mesh::Block& block = mesh.blocks[id];
     const std::size_t shown = block.cells.size() > 0 ? block.cells.size() : block.elements.size();
-    blocks.insert(blocks.end(), shown, id.value());
+    blocks.insert(blocks.end(), shown, numbers[id].value());
     bodies.insert(bodies.end(), shown, block.body.value());
     materials.insert(materials.end(), shown, mesh.bodies[block.body].material.value());
   }
@@ -84,22 +84,22 @@ output::Grid contact_grid(const mesh::BlockMesh<dim>& mesh, const contact::Conta
 }
 
 template <int dim>
-std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts) {
+std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts, const Table<BlockId, BlockId>& numbers) {
   using Contact = contact::Contact<dim>;
   const auto& all = contacts.contacts;
   return {{"area", 1, collect(all, [](const Contact& c) { return c.area; })},
           {"gap", 1, collect(all, [](const Contact& c) { return c.gap; })},
           {"kind", 1, collect(all, [](const Contact& c) { return static_cast<std::int32_t>(c.kind); })},
-          {"owner", 1, collect(all, [](const Contact& c) { return c.owner.value(); })},
-          {"target", 1, collect(all, [](const Contact& c) { return c.target.value(); })}};
+          {"owner", 1, collect(all, [&](const Contact& c) { return numbers[c.owner].value(); })},
+          {"target", 1, collect(all, [&](const Contact& c) { return numbers[c.target].value(); })}};
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                 \
-  template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&);                       \
-  template output::Frame heat_frame<dim>(double, const Eigen::VectorXd&, const std::vector<Point<dim>>&);      \
-  template std::vector<double> largest_in_cells<dim>(const mesh::BlockMesh<dim>&, const std::vector<double>&); \
-  template output::Grid contact_grid<dim>(const mesh::BlockMesh<dim>&, const contact::ContactSet<dim>&);       \
-  template std::vector<output::Array> contact_arrays<dim>(const contact::ContactSet<dim>&);
+#define SCREE_INSTANTIATE(dim)                                                                                           \
+  template std::vector<output::Array> identity_arrays<dim>(const mesh::BlockMesh<dim>&, const Table<BlockId, BlockId>&); \
+  template output::Frame heat_frame<dim>(double, const Eigen::VectorXd&, const std::vector<Point<dim>>&);                \
+  template std::vector<double> largest_in_cells<dim>(const mesh::BlockMesh<dim>&, const std::vector<double>&);           \
+  template output::Grid contact_grid<dim>(const mesh::BlockMesh<dim>&, const contact::ContactSet<dim>&);                 \
+  template std::vector<output::Array> contact_arrays<dim>(const contact::ContactSet<dim>&, const Table<BlockId, BlockId>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

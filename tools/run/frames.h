@@ -9,9 +9,10 @@
 
 namespace scree::run {
 
-// `block`, `body` and `material` of every cell of output::make_grid: counted from 0 in the order of the scene.
+// `block`, `body` and `material` of every cell of output::make_grid: counted from 0 in the order of the scene. `numbers` are
+// those of the mesh's blocks there.
 template <int dim>
-std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh);
+std::vector<output::Array> identity_arrays(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, BlockId>& numbers);
 
 // Blocks on their way: grid of the mesh with every block at its pose.
 output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>& poses);
@@ -28,8 +29,9 @@ std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std
 template <int dim>
 output::Grid contact_grid(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts);
 
-// `area` [m2], `gap` [m], `kind` (0 point-face, 1 edge-edge, 2 overlap), `owner` and `target` (blocks).
+// `area` [m2], `gap` [m], `kind` (0 point-face, 1 edge-edge, 2 overlap), `owner` and `target` (blocks, by their
+// `numbers`).
 template <int dim>
-std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts);
+std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts, const Table<BlockId, BlockId>& numbers);
 
 }  // namespace scree::run

@@ -12,7 +12,7 @@ namespace {
 
 template <int dim>
 output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile, std::optional<double> resumed_from) {
-  const auto comments = output::describe(pile.probes, pile.mesh);
+  const auto comments = output::describe(pile.probes, pile.mesh, pile.places.blocks);
   const auto columns = output::columns(pile.probes);
   return resumed_from ? output::ProbeTable(files.probes(), comments, columns, *resumed_from)
                       : output::ProbeTable(files.probes(), comments, columns);
@@ -47,11 +47,12 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
       restart_(files.restart()),
       several_threads_(threads_in_use() > 1),
       series_(files.directory, "heat", resumed_from) {
-  const auto share_blocks = [&] { series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh)); };
+  const auto& numbers = pile.places.blocks;
+  const auto share_blocks = [&] { series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh, numbers)); };
   const auto share_contacts = [&] {
     if (pile.contacts.contacts.empty()) return;
     contact_series_.emplace(files.directory, "contacts", resumed_from);
-    contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts));
+    contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts, numbers));
   };
   call_both(several_threads_, share_blocks, share_contacts);
   if (!pile.probes.empty()) table_.emplace(open_table(files, pile, resumed_from));

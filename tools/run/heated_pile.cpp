@@ -43,8 +43,9 @@ template <int dim>
 HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& packing,
                             const std::function<void(const std::string&)>& note) {
   HeatedPile<dim> pile;
-  pile.mesh = packing::placed_mesh(packing);
-  if (packing.settled) pile.lost = packing.settled->lost_blocks;
+  packing::Remaining<dim> blocks = packing::remaining(packing);
+  pile.mesh = std::move(blocks.mesh);
+  pile.places = std::move(blocks.places);
   pile.probes = output::locate_probes(pile.mesh, scene.probes, probe_reading(scene));
   pile.start = earlier_temperatures(scene, pile.mesh, note);
   pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
@@ -53,9 +54,7 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
 
 template <int dim>
 contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile) {
-  contact::ContactOptions search = thermal::contact_search(scene.heat->joint, pile.mesh.bodies, *scene.contact);
-  search.left_out = pile.lost;
-  return search;
+  return thermal::contact_search(scene.heat->joint, pile.mesh.bodies, *scene.contact);
 }
 
 template <int dim>

@@ -9,7 +9,7 @@
 
 #include "contact/find_contacts.h"
 #include "engine/output/probes.h"
-#include "engine/packing/packing.h"
+#include "engine/packing/remaining.h"
 #include "thermal/heat_model.h"
 #include "thermal/joint_conduction.h"
 #include "tools/scene/scene.h"
@@ -18,8 +18,8 @@ namespace scree::run {
 
 template <int dim>
 struct HeatedPile {
-  mesh::BlockMesh<dim> mesh;  // as placed
-  std::vector<BlockId> lost;  // left the scene as it settled, ascending: they touch nothing
+  mesh::BlockMesh<dim> mesh;  // as placed, without blocks that left the scene as it settled: they take no part
+  packing::Places places;     // of its blocks and nodes in the packing
   contact::ContactSet<dim> contacts;
   thermal::JointConduction<dim> joints;
   std::vector<output::Probe<dim>> probes;

@@ -68,7 +68,8 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   const SettleStage& stage = *context.scene.settle;
   output::Series series(context.files.directory, "settle");
-  const auto identity = identity_arrays(blocks);
+  const auto ids = blocks.blocks.ids();
+  const auto identity = identity_arrays(blocks, Table<BlockId, BlockId>(std::vector(ids.begin(), ids.end())));
   const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {
     series.write(grid_at(blocks, poses), {time, {}, identity});
   };

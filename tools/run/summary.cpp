@@ -100,7 +100,7 @@ Json probes_json(const HeatOutcome<dim>& outcome) {
   Json probes = Json::object();
   for (const auto& probe : outcome.pile.probes) {
     const mesh::Block& block = outcome.pile.mesh.blocks[probe.block];
-    probes[probe.name] = {{"block", probe.block.value()},
+    probes[probe.name] = {{"block", outcome.pile.places.blocks[probe.block].value()},
                           {"body", outcome.pile.mesh.bodies[block.body].name},
                           {"point", std::vector<double>(probe.point.begin(), probe.point.end())},
                           {"moved", probe.moved},
