@@ -57,14 +57,15 @@ RestWatch::RestWatch(const World& world, const SettleOptions& options, double me
 
 void RestWatch::begin(const World& world, double time) {
   since_ = time;
-  quiet_ = true;
+  largest_ = {};
   blocks_ = world.free_blocks();
   poses_.clear();
   for (const btRigidBody* body : world.free_bodies()) poses_.push_back(pose_of(*body));
 }
 
 bool RestWatch::observe(const World& world, const Motion& motion, double time) {
-  quiet_ = quiet_ && motion.rms_speed < rest_speed_ && motion.unbalanced < rest_unbalanced_;
+  largest_.rms_speed = std::max(largest_.rms_speed, motion.rms_speed);
+  largest_.unbalanced = std::max(largest_.unbalanced, motion.unbalanced);
   // Half a millionth of a window: times are sums of steps.
   if (time - since_ < rest_window_ * (1 - 5e-7)) return false;
   const bool same_blocks = blocks_ == world.free_blocks();
@@ -76,7 +77,10 @@ bool RestWatch::observe(const World& world, const Motion& motion, double time) {
     displacement_ =
         std::max(displacement_, (now.translation - poses_[i].translation).norm() + turned * world.radius(blocks_[i]));
   }
-  const bool rest = quiet_ && same_blocks && displacement_ < allowed_displacement_;
+  last_ = largest_;
+  lost_some_ = !same_blocks;
+  const bool quiet = last_.rms_speed < rest_speed_ && last_.unbalanced < rest_unbalanced_;
+  const bool rest = quiet && same_blocks && displacement_ < allowed_displacement_;
   begin(world, time);
   return rest;
 }
@@ -87,6 +91,13 @@ std::string RestWatch::criterion() const {
       "force on "
       "a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m in it",
       rest_window_, rest_speed_, rest_unbalanced_, allowed_displacement_);
+}
+
+std::string RestWatch::obstacle() const {
+  if (window_ == 0) return "no whole window has passed";
+  return fmt::format(
+      "in the last whole window the speed reached {:.3g} m/s, the unbalanced force {:.3g}, a point of a block moved {:.3g} m{}",
+      last_.rms_speed, last_.unbalanced, displacement_, lost_some_ ? ", and a block left the scene" : "");
 }
 
 }  // namespace scree::rigid

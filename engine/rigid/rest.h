@@ -29,13 +29,16 @@ class RestWatch {
   [[nodiscard]] double window() const { return window_; }              // length of the last whole one [s]
   [[nodiscard]] double displacement() const { return displacement_; }  // largest way of a block in it [m]
   [[nodiscard]] std::string criterion() const;
+  [[nodiscard]] std::string obstacle() const;  // what the last whole window lacked
 
  private:
   void begin(const World& world, double time);
 
   double rest_speed_, rest_unbalanced_, allowed_displacement_, rest_window_;
   double since_ = 0;
-  bool quiet_ = true;
+  Motion largest_;           // of the window so far, each for itself
+  Motion last_;              // of the last whole one
+  bool lost_some_ = false;   // in the last whole one
   std::vector<Pose> poses_;  // of the free bodies at the beginning of the window
   std::vector<BlockId> blocks_;
   double window_ = 0;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "engine/base/check.h"
@@ -54,7 +55,7 @@ class Frames {
     if (!sink_ || time < next_ * (1 - 1e-9)) return;
     sink_(time, world.poses());
     last_ = time;
-    while (next_ <= time * (1 + 1e-9)) next_ += interval_;
+    next_ = (std::floor(time / interval_ * (1 + 1e-9)) + 1) * interval_;
   }
   void finish(const World& world, double time) {
     if (sink_ && last_ < time) sink_(time, world.poses());
@@ -94,6 +95,8 @@ class Settling {
   [[nodiscard]] double time() const { return static_cast<double>(half_steps_) * options_.step / 2; }
   Motion advance(double viscous);
   [[nodiscard]] bool has_slowed(const Motion& motion, double viscous) const;
+  [[nodiscard]] double slow_speed(double viscous) const { return slow_under_drag * options_.gravity.norm() / viscous; }
+  [[nodiscard]] std::string obstacle(const RestWatch& watch, double viscous) const;
 
   const mesh::BlockMesh<3>& mesh_;
   const SettleOptions& options_;
@@ -108,7 +111,15 @@ class Settling {
 
 // Blocks that have only begun to move are slow, too: drag takes 1/c to act.
 bool Settling::has_slowed(const Motion& motion, double viscous) const {
-  return time() >= 1 / viscous && motion.rms_speed < slow_under_drag * options_.gravity.norm() / viscous;
+  return time() >= 1 / viscous && motion.rms_speed < slow_speed(viscous);
+}
+
+// Why a pile that is not at rest is not, in words and numbers.
+std::string Settling::obstacle(const RestWatch& watch, double viscous) const {
+  if (world_.hanging() > 0) return fmt::format("{} blocks had not been let go yet", world_.hanging());
+  if (viscous == 0) return watch.obstacle();
+  return fmt::format("the drag was still on, for the root mean square speed had not fallen below {:.3g} m/s yet",
+                     slow_speed(viscous));
 }
 
 Motion Settling::advance(double viscous) {
@@ -151,6 +162,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   }
   frames.finish(world_, time());
   report.criterion = watch.criterion();
+  if (!report.at_rest) report.criterion += "; " + obstacle(watch, viscous);
   report.simulated_time = time();
   report.rms_speed = motion.rms_speed;
   report.max_speed = motion.max_speed;

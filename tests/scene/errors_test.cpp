@@ -202,6 +202,21 @@ TEST(SceneErrors, AFallOfMoreStepsThanAnyoneWaitsForIsRefused) {
             "--set settle.step: settle.step is 1e-10 s (must be at least 2e-09 s, for 1e+09 steps to settle.limit)");
 }
 
+TEST(SceneErrors, AFallMustLeaveTimeToLetGoAndToRest) {
+  EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=2 s", "settle.rest_window=3 s"}),
+            "--set settle.limit: settle.limit is 2 s (must be at least settle.rest_window, 3 s: no pile is at rest before)");
+  EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=2 s", "settle.release_time=3 s"}),
+            "--set settle.limit: settle.limit is 2 s (must be at least settle.release_time, 3 s: no pile is at rest before)");
+}
+
+TEST(SceneErrors, AFallThatNothingCouldDoIsRefused) {
+  EXPECT_EQ(wrong_with(whole_scene, {"settle.gravity=[0, 0, -1e200]"}),
+            "--set settle.gravity: settle.gravity[2] is -1e200 (must be at least -100000000 and at most 100000000, m/s2)");
+  EXPECT_EQ(
+      wrong_with(whole_scene, {"bodies.block.velocity=[1e200, 0, 0]"}),
+      "--set bodies.block.velocity: bodies.block.velocity[0] is 1e200 (must be at least -1000000 and at most 1000000, m/s)");
+}
+
 TEST(SceneErrors, OverridesAreCheckedWithTheRest) {
   EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=-1", "settle.limti=1", "oops"}),
             "--set oops: oops is not understood (must be key.path=value)\n"

@@ -159,7 +159,7 @@ TEST(StudyCommand, StopsItsRunsWhenInterruptedAndGoesOnLater) {
 TEST(StudyCommand, RecordsARunThatFailsWithItsReasonAndMakesTheOthers) {
   const OneStudy study(R"(
 scene: scene.yaml
-vary: [{key: settle.limit, values: [5 s, 10 ms]}, {key: heat.until, values: [1 h, 2 h]}]
+vary: [{key: settle.limit, values: [5 s, 0.25 s]}, {key: heat.until, values: [1 h, 2 h]}]
 report: [heat.time]
 )");
   EXPECT_EQ(study.run().status, 1);

@@ -46,22 +46,26 @@ void adopt_scene_bodies(const Scene& scene, packing::Packing<dim>& packing) {
 }
 
 // Heat is looked for across gaps of contact.tolerance times the length of an element at a surface: blocks held further apart
-// would not feel each other.
+// would not feel each other. Without heat a clearance must be small beside the blocks.
 void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
+  constexpr double small = 0.1;  // of the length of an element
   const double clearance = scene.settle->options.clearance;
-  if (clearance == 0 || !scene.contact) return;
+  if (clearance == 0) return;
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& face : mesh::boundary_faces(blocks))
     shortest = std::min(shortest, mesh::element_mean_edge(blocks, face.element));
-  const double most = 0.5 * scene.contact->tolerance * shortest;
+  const double most = (scene.contact ? 0.5 * scene.contact->tolerance : small) * shortest;
   if (clearance <= most) return;
   Problem problem;
   problem.where = scene.settle->clearance_at;
   problem.key = "settle.clearance";
   problem.value = fmt::format("{:g} m", clearance);
   problem.rule =
-      fmt::format("must be at most {:.3g} m, half of the gap across which contacts are found at the smallest elements", most);
-  problem.suggestion = "Lower it, or raise contact.tolerance";
+      scene.contact
+          ? fmt::format("must be at most {:.3g} m, half of the gap across which contacts are found at the smallest elements",
+                        most)
+          : fmt::format("must be at most {:.3g} m, a tenth of the smallest elements at a surface", most);
+  problem.suggestion = scene.contact ? "Lower it, or raise contact.tolerance" : "Lower it";
   throw InputError(problem);
 }
 

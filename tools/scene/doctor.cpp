@@ -76,6 +76,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   append(sentences, unused_materials(scene));
   append(sentences, free_without_motion(scene));
   append(sentences, cold_bare_temperatures(scene));
+  append(sentences, too_many_frames_of_a_fall(scene));
   append(sentences, too_many_outputs(scene));
   if (!scene.settle && !scene.packing && !scene.heat) {
     sentences.push_back("the scene has neither a settle nor a heat section: nothing happens");

@@ -172,7 +172,7 @@ Keys body_keys() {
           .words({"whole", "per_element"})
           .fallback("whole"),
       row("bodies.*.fixed", flag, "It never moves.").fallback("false"),
-      row("bodies.*.velocity", quantity, "At the start.", q::speed)
+      row("bodies.*.velocity", quantity, "At the start.", q::speed, Range{.low = -1e6, .high = 1e6})
           .count(vector)
           .otherwise("at rest")
           .only({in_3d, Condition{.key = "bodies.*.fixed", .word = "true", .absent = true}}),
@@ -188,7 +188,7 @@ Keys settle_keys() {
       row("settle", section, "The free bodies fall and come to rest; without it they stay where they are.")
           .choice("start")
           .only({in_3d}),
-      row("settle.gravity", quantity, "Acceleration of free fall.", q::acceleration)
+      row("settle.gravity", quantity, "Acceleration of free fall.", q::acceleration, Range{.low = -1e8, .high = 1e8})
           .count(vector)
           .fallback(as_list(by_default.gravity)),
       row("settle.limit", quantity, "Longest simulated time.", q::time, positive).fallback(with_unit(by_default.limit, "s")),
@@ -199,8 +199,9 @@ Keys settle_keys() {
       row("settle.viscous_damping", quantity, "Drag per mass while the blocks fall; they come to rest without it.", q::rate,
           not_negative)
           .fallback(with_unit(by_default.viscous_damping, "s-1")),
-      row("settle.release_time", quantity, "Blocks are let go one by one, the lowest first, over this time; 0: all at once.",
-          q::time, not_negative)
+      row("settle.release_time", quantity,
+          "Blocks are let go one by one over this time, from the lower rim to the middle of the top; 0: all at once.", q::time,
+          not_negative)
           .fallback(with_unit(by_default.release_time, "s")),
       row("settle.rest_speed", quantity, "Root mean square speed below which the pile may be at rest.", q::speed, positive)
           .fallback(with_unit(by_default.rest_speed, "m/s")),
@@ -218,7 +219,7 @@ Keys settle_keys() {
       row("settle.iterations", integer, "Iterations of the contact solver in each step.")
           .range(Range{.low = 1, .high = 10000})
           .fallback(fmt::format("{}", by_default.iterations)),
-      row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd.", q::time, positive)
+      row("settle.frame_interval", quantity, "Between the frames of the series settle.pvd; a step at least.", q::time, positive)
           .fallback(with_unit(by_default.frame_interval, "s")),
       row("settle.seed", integer,
           "Another seed starts every free body aside by up to a thousandth of its mesh_size, for another packing; 0: as "

@@ -8,6 +8,22 @@ namespace {
 
 constexpr double most_steps = 1e9;  // of a fall: more are no fall that anyone waits for
 
+void check_times(const Checked& settle, const rigid::SettleOptions& options, Problems& problems) {
+  if (!settle.at("limit").sound) return;
+  const auto expect = [&](const char* key, bool good, const std::string& rule) {
+    const Checked& time = settle.at(key);
+    if (time.sound && !good) problems.push_back(time.problem(time.text, rule));
+  };
+  expect("step", options.step <= options.limit, fmt::format("must be at most settle.limit, {:g} s", options.limit));
+  expect("step", options.step >= options.limit / most_steps,
+         fmt::format("must be at least {:g} s, for {:g} steps to settle.limit", options.limit / most_steps, most_steps));
+  if (settle.at("accept_moving").flag()) return;
+  expect("limit", options.limit >= options.rest_window,
+         fmt::format("must be at least settle.rest_window, {:g} s: no pile is at rest before", options.rest_window));
+  expect("limit", options.limit >= options.release_time,
+         fmt::format("must be at least settle.release_time, {:g} s: no pile is at rest before", options.release_time));
+}
+
 }  // namespace
 
 SettleStage read_settle(const Checked& settle, Problems& problems) {
@@ -35,14 +51,7 @@ SettleStage read_settle(const Checked& settle, Problems& problems) {
   if (drag.sound && settle.at("step").sound && options.viscous_damping * options.step > 1) {
     problems.push_back(drag.problem(drag.text, fmt::format("must be at most {:g} 1/s, one over the step", 1 / options.step)));
   }
-  const Checked& step = settle.at("step");
-  if (step.sound && settle.at("limit").sound && options.step > options.limit) {
-    problems.push_back(step.problem(step.text, fmt::format("must be at most settle.limit, {:g} s", options.limit)));
-  }
-  if (step.sound && settle.at("limit").sound && options.step < options.limit / most_steps) {
-    problems.push_back(step.problem(step.text, fmt::format("must be at least {:g} s, for {:g} steps to settle.limit",
-                                                           options.limit / most_steps, most_steps)));
-  }
+  check_times(settle, options, problems);
   const Checked& gravity = settle.at("gravity");
   if (gravity.sound && options.gravity.norm() == 0) {
     problems.push_back(

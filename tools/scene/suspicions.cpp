@@ -13,6 +13,8 @@ namespace scree {
 
 namespace {
 
+constexpr double many_frames = 1e5;
+
 // Appends a sentence if `text` is a number without a unit that would be very cold in kelvin.
 void judge_temperature(const InputValue& value, const std::string& key, Sentences& sentences) {
   constexpr double coldest_usual = 200;  // [K]; rock, ore and soil are warmer, and most temperatures in degC are below
@@ -75,8 +77,16 @@ Sentences cold_bare_temperatures(const Scene& scene) {
   return sentences;
 }
 
+Sentences too_many_frames_of_a_fall(const Scene& scene) {
+  if (!scene.settle) return {};
+  const rigid::SettleOptions& fall = scene.settle->options;
+  const double frames = fall.limit / std::max(fall.frame_interval, fall.step);
+  if (frames <= many_frames) return {};
+  return {fmt::format("up to {:.2g} frames of the fall will be written: raise settle.frame_interval", frames)};
+}
+
 Sentences too_many_outputs(const Scene& scene) {
-  constexpr double many_rows = 1e6, many_frames = 1e5;
+  constexpr double many_rows = 1e6;
   if (!scene.heat || scene.heat->time.steady) return {};
   const double until = scene.heat->time.until, every = scene.heat->time.output_every;
   Sentences sentences;

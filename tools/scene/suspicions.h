@@ -20,6 +20,7 @@ Sentences free_without_motion(const Scene& scene);
 Sentences cold_bare_temperatures(const Scene& scene);
 
 // Output times by the million, frames by the hundred thousand.
+Sentences too_many_frames_of_a_fall(const Scene& scene);
 Sentences too_many_outputs(const Scene& scene);
 
 // Blocks of different bodies that lie in each other before anything moves.
