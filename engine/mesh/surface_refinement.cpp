@@ -1,9 +1,13 @@
 #include "engine/mesh/surface_refinement.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 namespace scree::mesh {
 
@@ -15,6 +19,31 @@ Edge edge_of(std::size_t a, std::size_t b) {
   return a < b ? Edge{a, b} : Edge{b, a};
 }
 
+// Of the longer diagonal: a quadrilateral that is bent by less is flat, and its diagonal may be changed. Files hold coordinates
+// in single precision.
+constexpr double flat = 1e-6;
+
+// The other diagonal must be better by this much, so that rounding never turns one back.
+constexpr double better = 1e-3;
+
+double cotangent(const Eigen::Vector3d& at, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a - at).dot(b - at) / (a - at).cross(b - at).norm();
+}
+
+// Whether the triangles a, b, c and b, a, d are better cut from c to d: in one plane, and against Delaunay's rule, by which
+// the angles at c and d make less than half a turn.
+bool wants_other_diagonal(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                          const Eigen::Vector3d& d) {
+  if (cotangent(c, a, b) + cotangent(d, a, b) > -better) return false;
+  const Eigen::Vector3d across = (b - a).cross(d - c);
+  const double longest = std::max((b - a).norm(), (d - c).norm());
+  if (std::abs(across.dot(c - a)) > flat * longest * across.norm()) return false;
+  const auto side = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& point) {
+    return (to - from).cross(point - from).dot(across);
+  };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
 class Refiner {
  public:
   Refiner(ClosedSurface surface, double longest) : surface_(std::move(surface)), longest_sq_(longest * longest) {
@@ -24,6 +53,8 @@ class Refiner {
   }
 
   ClosedSurface run() {
+    for (const auto& [edge, beside] : triangles_) doubtful_.push_back(edge);
+    improve();
     while (!long_edges_.empty()) {
       const Edge edge = long_edges_.rbegin()->second;
       long_edges_.erase(std::prev(long_edges_.end()));
@@ -31,6 +62,7 @@ class Refiner {
       const std::size_t middle = surface_.points.size();
       surface_.points.emplace_back((surface_.points[edge.first] + surface_.points[edge.second]) / 2);
       for (const std::size_t t : beside) split(t, edge, middle);
+      improve();
     }
     return std::move(surface_);
   }
@@ -64,12 +96,60 @@ class Refiner {
     add(edge_of(edge.second, middle), made);
     add(edge_of(opposite, middle), t);
     add(edge_of(opposite, middle), made);
+    for (const std::size_t end : {edge.first, edge.second}) {
+      doubtful_.push_back(edge_of(end, middle));
+      doubtful_.push_back(edge_of(end, opposite));
+    }
+    doubtful_.push_back(edge_of(opposite, middle));
+  }
+
+  // Turns diagonals in flat parts until all of those that are in doubt keep Delaunay's rule (Lawson 1977).
+  void improve() {
+    while (!doubtful_.empty()) {
+      const Edge edge = doubtful_.back();
+      doubtful_.pop_back();
+      const auto found = triangles_.find(edge);
+      if (found == triangles_.end() || found->second.size() != 2) continue;
+      const std::size_t s = *found->second.begin(), t = *found->second.rbegin();
+      const std::size_t c = opposite_of(s, edge), d = opposite_of(t, edge);
+      const auto& points = surface_.points;
+      if (c == d || triangles_.contains(edge_of(c, d))) continue;
+      if (wants_other_diagonal(points[edge.first], points[edge.second], points[c], points[d])) turn(edge, {s, t}, {c, d});
+    }
+  }
+
+  [[nodiscard]] std::size_t opposite_of(std::size_t t, const Edge& edge) const {
+    const auto& nodes = surface_.triangles[t];
+    return *std::find_if(nodes.begin(), nodes.end(), [&](std::size_t n) { return n != edge.first && n != edge.second; });
+  }
+
+  // `edge` of two triangles is replaced by the one between their opposite corners.
+  void turn(const Edge& edge, std::array<std::size_t, 2> beside, std::array<std::size_t, 2> opposite) {
+    const auto [a, b] = edge;
+    const auto [s, t] = beside;
+    const auto [c, d] = opposite;
+    const auto replace = [&](std::size_t triangle, std::size_t corner, std::size_t by) {
+      auto& nodes = surface_.triangles[triangle];
+      *std::find(nodes.begin(), nodes.end(), corner) = by;
+    };
+    replace(s, b, d);
+    replace(t, a, c);
+    triangles_.erase(edge);
+    long_edges_.erase({(surface_.points[a] - surface_.points[b]).squaredNorm(), edge});
+    triangles_[edge_of(a, d)].erase(t);
+    triangles_[edge_of(b, c)].erase(s);
+    add(edge_of(a, d), s);
+    add(edge_of(b, c), t);
+    add(edge_of(c, d), s);
+    add(edge_of(c, d), t);
+    for (const Edge& around : {edge_of(a, c), edge_of(a, d), edge_of(b, c), edge_of(b, d)}) doubtful_.push_back(around);
   }
 
   ClosedSurface surface_;
   double longest_sq_;
   std::map<Edge, std::set<std::size_t>> triangles_;
   std::set<std::pair<double, Edge>> long_edges_;
+  std::vector<Edge> doubtful_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Long edges of a closed surface cut in halves.
+// Long edges of a closed surface cut in halves, and its flat parts cut into better triangles.
 #pragma once
 
 #include <array>
@@ -14,7 +14,9 @@ struct ClosedSurface {
 };
 
 // Halves the longest edge, and the two triangles at it, until none is longer than `longest` [m]. The shape stays the same to
-// rounding, and since it is always the longest edge, the angles do not degenerate (Rivara 1984).
+// rounding. Since it is always the longest edge, the angles do not degenerate (Rivara 1984); where two triangles lie in one
+// plane their common edge is turned by Delaunay's rule (Lawson 1977), so that needles, as programs write them that cut large
+// faces like fans, go.
 ClosedSurface refined(ClosedSurface surface, double longest);
 
 }  // namespace scree::mesh
