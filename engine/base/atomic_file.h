@@ -6,15 +6,20 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace scree {
 
-// Calls `write` with a temporary name beside `file`, flushes it to disk and renames it to `file`.
-// Throws RunError, naming the file and the system's reason, if any of it fails; the old `file` is then untouched.
+// Calls `write` with a temporary name beside `file`, flushes it to disk and renames it to `file`. Of a symbolic link what it
+// points to is written. Throws RunError, naming the file and the system's reason, if any of it fails or `file` is there and is
+// no regular file (a device, a pipe); the old `file` is then untouched.
 void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
 
 // The same for text, and for parts of it that are not put together first.
 void write_text(const std::filesystem::path& file, std::string_view text);
 void write_text(const std::filesystem::path& file, std::span<const std::string_view> parts);
+
+// What to say of a file that could not be written, for the system's error.
+std::string not_written(const std::filesystem::path& file, std::error_code reason);
 
 }  // namespace scree

@@ -91,10 +91,10 @@ void ProbeTable::append(double time, const std::vector<double>& values) {
   std::ofstream table(file_, std::ios::binary | std::ios::app);
   table << row << '\n' << std::flush;
   if (table && !error) return;
-  const std::string reason = error ? error.message() : std::strerror(errno);
+  const std::error_code reason = error ? error : std::error_code(errno, std::generic_category());
   table.close();
   if (!error) std::filesystem::resize_file(file_, size, error);
-  throw RunError(fmt::format("{}: could not be written ({}). Free some space or choose another --out", file_.string(), reason));
+  throw RunError(not_written(file_, reason));
 }
 
 }  // namespace scree::output

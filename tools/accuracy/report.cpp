@@ -78,9 +78,11 @@ std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>&
 bool draw(const std::vector<Measured>& runs, const std::filesystem::path& csv, const std::filesystem::path& picture) {
   const auto has_a_place = [](const Measured& run) { return run.nodes > 0 && run.max_error.value_or(0) > 0; };
   if (std::none_of(runs.begin(), runs.end(), has_a_place)) return false;
-  const std::string script = fmt::format(plot, fmt::arg("csv", run::gnuplot_text(csv.string())),
-                                         fmt::arg("picture", run::gnuplot_text(picture.string())));
-  run::draw_by_gnuplot(script, picture);
+  const auto commands_for = [&](const std::filesystem::path& output) {
+    return fmt::format(plot, fmt::arg("csv", run::gnuplot_text(csv.string())),
+                       fmt::arg("picture", run::gnuplot_text(output.string())));
+  };
+  run::draw_by_gnuplot(commands_for, picture);
   return true;
 }
 

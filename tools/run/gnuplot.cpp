@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 
 namespace scree::run {
@@ -19,9 +20,9 @@ std::string gnuplot_text(const std::string& text) {
   return quoted + "'";
 }
 
-void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& picture) {
-  std::error_code none_there;
-  std::filesystem::remove(picture, none_there);
+namespace {
+
+void draw(const std::string& commands) {
   constexpr int no_such_command = 127;  // of a shell
   const RunError not_started("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
   std::FILE* gnuplot = popen("gnuplot", "w");
@@ -29,9 +30,14 @@ void draw_by_gnuplot(const std::string& commands, const std::filesystem::path& p
   std::fputs(commands.c_str(), gnuplot);
   const int status = pclose(gnuplot);
   if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command) throw not_started;
-  if (status != 0 || !std::filesystem::exists(picture)) {
-    throw RunError(fmt::format("gnuplot could not draw {}; what it said stands above", picture.string()));
-  }
+  if (status != 0) throw RunError(fmt::format("gnuplot failed with status {}; what it said stands above", status));
+}
+
+}  // namespace
+
+void draw_by_gnuplot(const std::function<std::string(const std::filesystem::path&)>& commands_for,
+                     const std::filesystem::path& picture) {
+  write_atomically(picture, [&](const std::filesystem::path& temporary) { draw(commands_for(temporary)); });
 }
 
 }  // namespace scree::run

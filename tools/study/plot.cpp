@@ -132,7 +132,7 @@ int plot_command(const PlotArguments& arguments) {
   if (!std::filesystem::is_directory(std::filesystem::absolute(picture).parent_path(), ignored)) {
     refuse("--picture", picture.string(), "must be in a folder that exists", "");
   }
-  run::draw_by_gnuplot(commands_of(all, arguments, picture), picture);
+  run::draw_by_gnuplot([&](const std::filesystem::path& output) { return commands_of(all, arguments, output); }, picture);
   fmt::print("{}\n", picture.string());
   return 0;
 }
