@@ -54,21 +54,22 @@ void reduce_to_four(std::vector<ContactPoint>& points, const Vector3d& normal) {
   points.resize(4);
 }
 
-// An overlap without a contact would grow unseen. It has none if the face that was clipped does not hold the deepest vertex,
-// which is one overlap in a thousand.
-void add_deepest(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident,
+// An overlap without a contact would grow unseen, and what is closer than the clearance come closer. It has none if the face
+// that was clipped does not hold the deepest vertex, which is one overlap in a thousand. Other points of the pair bear an
+// overlap as well as the deepest (README.md); a clearance they do not keep.
+void add_deepest(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident, double clearance,
                  std::vector<ContactPoint>& points) {
   const Vector3d& normal = reference.normals[face];
   const Vector3d& deepest =
       *std::min_element(incident.vertices.begin(), incident.vertices.end(),
                         [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
   const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
-  if (distance < 0) points.push_back({deepest - distance * normal, deepest, distance});
+  if (distance < clearance) points.push_back({deepest - distance * normal, deepest, distance});
 }
 
 // Points of `incident` against a face of `reference`, whose points come first.
 std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident,
-                                      double range) {
+                                      double range, double clearance) {
   const Vector3d& normal = reference.normals[face];
   const auto& rim = reference.piece->faces[face].corners;
   Polygon polygon;
@@ -86,7 +87,10 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
     const double distance = normal.dot(point - reference.vertices[rim[0]]);
     if (distance <= range) points.push_back({point - distance * normal, point, distance});
   }
-  if (points.empty()) add_deepest(reference, face, incident, points);
+  const bool bears =
+      clearance > 0 ? std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) { return p.distance < clearance; })
+                    : !points.empty();
+  if (!bears) add_deepest(reference, face, incident, clearance, points);
   if (points.size() > 4) reduce_to_four(points, normal);
   return points;
 }
@@ -107,15 +111,16 @@ ContactPoint edge_point(const PlacedPiece& first, const PlacedPiece& second, con
 
 }  // namespace
 
-ContactPoints contact_points(const PlacedPiece& first, const PlacedPiece& second, const Separation& separation, double range) {
+ContactPoints contact_points(const PlacedPiece& first, const PlacedPiece& second, const Separation& separation, double range,
+                             double clearance) {
   ContactPoints result;
   if (separation.feature == Separation::Feature::edges) {
     result.points[result.count++] = edge_point(first, second, separation);
     return result;
   }
   const bool of_first = separation.feature == Separation::Feature::face_of_first;
-  for (ContactPoint point : of_first ? face_points(first, separation.of_first, second, range)
-                                     : face_points(second, separation.of_second, first, range)) {
+  for (ContactPoint point : of_first ? face_points(first, separation.of_first, second, range, clearance)
+                                     : face_points(second, separation.of_second, first, range, clearance)) {
     if (!of_first) std::swap(point.on_first, point.on_second);
     result.points[result.count++] = point;
   }

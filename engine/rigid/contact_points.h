@@ -20,8 +20,9 @@ struct ContactPoints {
 };
 
 // The overlap of a face with the face turned most against it, clipped to that face's prism, or the nearest points of two edges;
-// points further apart than `range` [m] are left out. Of more than four, those that span the patch best are kept.
+// points further apart than `range` [m] are left out. Of more than four, those that span the patch best are kept. Pieces closer
+// than `clearance` [m], at which they touch, have one at least.
 ContactPoints contact_points(const packing::PlacedPiece& first, const packing::PlacedPiece& second,
-                             const packing::Separation& separation, double range);
+                             const packing::Separation& separation, double range, double clearance = 0);
 
 }  // namespace scree::rigid

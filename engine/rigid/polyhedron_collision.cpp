@@ -172,7 +172,7 @@ ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
     if (separation_.distance > 0 && real.distance <= 0) return {};
     if (real.distance > -ranges_.near) separation_ = real;
   }
-  return contact_points(a, b, separation_, pair.reach);
+  return contact_points(a, b, separation_, pair.reach, ranges_.clearance);
 }
 
 void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {

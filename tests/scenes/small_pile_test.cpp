@@ -73,6 +73,17 @@ TEST_F(SmallPile, NamesTheNearestBlockOfAProbeInAVoid) {
   EXPECT_FALSE(std::filesystem::exists(directory / "heat.pvd"));
 }
 
+TEST_F(SmallPile, RefusesADamagedPackingWhereTheSceneNamesIt) {
+  const auto directory = fresh_directory("small_pile_damaged");
+  const std::string file = (directory / "broken.h5").string();
+  std::filesystem::copy(run_->directory / "packing.h5", file);
+  std::filesystem::resize_file(file, 1000);
+  const SceneRun run = test::run("small_pile", directory / "out", {"settle=null", "packing=" + file});
+  EXPECT_EQ(run.exit_status, 2);
+  EXPECT_EQ(run.summary["reasons"][0],
+            "--set packing: packing is " + file + ", damaged (must be a whole packing). Delete it and settle the scene again");
+}
+
 TEST_F(SmallPile, StatesTheCostOfEveryStage) {
   std::vector<std::string> names;
   for (const auto& stage : run_->summary["stages"]) {

@@ -20,12 +20,27 @@ namespace {
 
 [[noreturn]] void refuse_packing(const Scene& scene, const std::string& rule) {
   Problem problem;
-  problem.where.file = scene.file.string();
+  problem.where = scene.packing_at;
   problem.key = "packing";
   problem.value = scene.packing->string();
   problem.rule = rule;
   problem.suggestion = "Name the bodies of the scene that made the packing, in its order";
   throw InputError(problem);
+}
+
+// What is wrong with the file is said at the place where the scene names it.
+template <int dim>
+packing::Packing<dim> read_named(const Scene& scene) {
+  try {
+    return packing::read<dim>(*scene.packing);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      problem.where = scene.packing_at;
+      problem.value = fmt::format("{}, {}", scene.packing->string(), problem.value);
+    }
+    throw InputError(std::move(problems));
+  }
 }
 
 // The bodies of a packing file must be those of the scene, since boundaries and materials speak of them.
@@ -101,7 +116,7 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
 
 template <int dim>
 packing::Packing<dim> stored_packing(const Scene& scene) {
-  auto packing = packing::read<dim>(*scene.packing);
+  auto packing = read_named<dim>(scene);
   adopt_scene_bodies(scene, packing);
   return packing;
 }

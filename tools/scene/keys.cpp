@@ -167,7 +167,8 @@ Keys body_keys() {
       row("bodies.*.mesh_size", quantity, "Edge length of its elements aimed at.", q::length, positive).required(),
       row("bodies.*.elements", word, "Kind of element in 2-D: simplex, quadrilateral; in 3-D: simplex, wedge, hexahedron.")
           .words({"simplex", "quadrilateral", "wedge", "hexahedron"})
-          .fallback("simplex"),
+          .fallback("simplex")
+          .only({Condition{.key = "bodies.*.mesh", .absent = true}}),
       row("bodies.*.blocks", word, "One block per copy of the shape, or one per element.")
           .words({"whole", "per_element"})
           .fallback("whole"),

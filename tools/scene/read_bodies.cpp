@@ -97,7 +97,7 @@ std::vector<mesh::BodySpec> read_bodies(const Checked& scene, int dimension, Pro
     spec.shape = placed.shape;
     spec.arrangement = read_arrangement(body, placed.pose, dimension, problems);
     spec.mesh_size = body.at("mesh_size").number();
-    spec.cells = cells_of(body.at("elements").text);
+    if (const Checked* elements = body.find("elements")) spec.cells = cells_of(elements->text);
     spec.blocks = body.at("blocks").text == "per_element" ? mesh::BlockRule::per_element : mesh::BlockRule::whole;
     spec.material = resolve<MaterialId>(body.at("material"), materials, "material", problems);
     spec.fixed = body.at("fixed").flag();

@@ -98,6 +98,7 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   if (const Checked* packing = checked.find("packing")) {
     check_packing(*packing, problems);
     scene.packing = packing->text;
+    scene.packing_at = packing->where;
   }
   if (const Checked* contact = checked.find("contact")) scene.contact = read_contact(*contact);
   if (const Checked* heat = checked.find("heat")) {

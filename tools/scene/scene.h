@@ -34,6 +34,7 @@ struct Scene {
   // At most one of the two: how the blocks come to their places. Neither: they stay where they were placed.
   std::optional<SettleStage> settle;
   std::optional<std::filesystem::path> packing;  // start from this packing file
+  SourceLocation packing_at;                     // where it is named, for messages
   // Both or neither.
   std::optional<contact::ContactOptions> contact;
   std::optional<thermal::HeatOptions> heat;
