@@ -81,6 +81,21 @@ class Scenes(unittest.TestCase):
         self.assertEqual(base.title, "")
         self.assertNotIn("settle", base.changed({"settle": None}).effective)
 
+    def test_changes_take_the_numbers_of_numpy_and_paths(self):
+        base = scree.Scene.from_text(STONES)
+        other = base.changed({"settle.iterations": numpy.int64(60), "heat.until": numpy.float32(1800),
+                              "settle.gravity": numpy.array([0, 0, -1.5]), "bodies.plate.fixed": numpy.bool_(True)})
+        self.assertIn("iterations: 60", other.effective)
+        self.assertIn("gravity: [0.0, 0.0, -1.5]", other.effective)
+        with self.assertRaisesRegex(TypeError, "no place for a <class 'object'>"):
+            base.changed({"heat.until": object()})
+        with self.assertRaisesRegex(scree.InputError, "packing is .*none.h5"):
+            base.changed({"settle": None, "packing": pathlib.Path("none.h5")})
+
+    def test_a_text_stays_the_text_that_it_is(self):
+        for text in ("a: b", "yes", "1e3", "[1, 2]", "null", "say \"no\""):
+            self.assertEqual(scree.Scene.from_text(STONES, {"title": text}).title, text)
+
     def test_it_says_what_is_in_it(self):
         scene = scree.Scene(SMALL_PILE)
         self.assertEqual((scene.dimension, scene.bodies, scene.probes), (3, ["plate", "cube"], ["inside"]))
@@ -129,6 +144,15 @@ class Packings(unittest.TestCase):
         gc.collect()
         scree.settle(self.scene.changed({"settle": None}))
         self.assertTrue((nodes == before).all())
+
+    def test_one_that_still_moves_is_an_error_that_holds_it(self):
+        short = {"settle.limit": "0.25 s", "settle.rest_speed": "1e-9 m/s"}
+        with self.assertRaisesRegex(scree.NotSettled, "still moving at 0.25 s") as raised:
+            scree.settle(self.scene.changed(short))
+        self.assertIsInstance(raised.exception, scree.RunError)
+        self.assertFalse(raised.exception.packing.report["at_rest"])
+        accepted = scree.settle(self.scene.changed({**short, "settle.accept_moving": True}))
+        self.assertTrue((accepted.nodes == raised.exception.packing.nodes).all())
 
     def test_it_comes_back_from_its_file_to_the_bit(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -218,6 +242,13 @@ class Heatings(unittest.TestCase):
         heating.advance_to(1810)
         # The trapezoidal rule over ten seconds.
         self.assertAlmostEqual((stored() - heat) / (5 * (flow + into_stones())), 1, delta=1e-3)
+
+    def test_a_packing_of_other_bodies_is_refused(self):
+        packing = scree.settle(scree.Scene.from_text(CUBE))
+        with self.assertRaisesRegex(scree.InputError, "packing is of another scene .it holds 1 bodies, the scene 2"):
+            scree.Heating(scree.Scene.from_text(STONES), packing)
+        with self.assertRaisesRegex(scree.InputError, "its body 1 is called cube, the scene's block"):
+            scree.Heating(scree.Scene.from_text(CUBE.replace("cube", "block")), packing)
 
     def test_another_dimension_is_refused(self):
         with self.assertRaisesRegex(ValueError, "dimension"):

@@ -7,6 +7,7 @@
 
 #include "engine/base/nearest.h"
 #include "thermal/steady_state.h"
+#include "tools/run/packing_stage.h"
 
 namespace scree {
 
@@ -28,7 +29,10 @@ namespace {
 template <int dim>
 Heating<dim>::Heating(Scene scene, const packing::Packing<dim>& packing) : scene_(std::move(scene)) {
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
+  auto bodies = packing.mesh.bodies;
+  run::adopt_bodies(scene_, bodies);
   pile_ = run::placed_pile(scene_, packing);
+  pile_.mesh.bodies = std::move(bodies);
   run::join(scene_, pile_);
   model_ = run::heat_model(scene_, pile_);
   if (scene_.heat->time.steady) {

@@ -15,8 +15,8 @@ namespace scree {
 template <int dim>
 class Heating {
  public:
-  // Finds the contacts and assembles the balance of heat. Throws InputError for a scene without heat. A steady scene is solved
-  // here.
+  // Finds the contacts and assembles the balance of heat. Throws InputError for a scene without heat, and for a
+  // packing of other bodies than the scene's. A steady scene is solved here.
   Heating(Scene scene, const packing::Packing<dim>& packing);
 
   // To exactly `time` [s]. `progress` is told the time after every step and may throw to stop. Throws InputError for a steady

@@ -5,6 +5,7 @@
 #include "engine/rigid/settle.h"
 #include "tools/run/keys.h"
 #include "tools/run/packing_stage.h"
+#include "tools/run/summary.h"
 
 namespace scree {
 
@@ -16,6 +17,7 @@ packing::Packing<dim> make_packing(const Scene& scene, const std::function<void(
   packing::Packing<dim> packing;
   if (scene.settle) {
     if constexpr (dim == 3) {
+      run::check_clearance(scene, blocks);
       const auto tell = [&](double time, double) {
         if (progress) progress(time);
       };
@@ -28,6 +30,13 @@ packing::Packing<dim> make_packing(const Scene& scene, const std::function<void(
   return packing;
 }
 
+template <int dim>
+std::vector<std::string> faults_of(const Scene& scene, const packing::Packing<dim>& packing) {
+  return run::unsound(scene, packing);
+}
+
+template std::vector<std::string> faults_of<2>(const Scene&, const packing::Packing<2>&);
+template std::vector<std::string> faults_of<3>(const Scene&, const packing::Packing<3>&);
 template packing::Packing<2> make_packing<2>(const Scene&, const std::function<void(double)>&);
 template packing::Packing<3> make_packing<3>(const Scene&, const std::function<void(double)>&);
 

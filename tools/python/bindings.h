@@ -37,6 +37,12 @@ struct AnyPacking {
 // Python's lock.
 std::unique_lock<std::mutex> alone();
 
+// Of a text or of any other path that Python knows.
+std::string file_name(const pybind11::object& path);
+
+// Raises NotSettled with `packing` as its attribute.
+[[noreturn]] void raise_not_settled(const std::vector<std::string>& reasons, const pybind11::object& packing);
+
 // Lets Ctrl-C stop a long computation: called without Python's lock, takes it for a moment.
 void check_signals();
 

@@ -1,5 +1,8 @@
 #include "tools/python/bindings.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "engine/base/check.h"
 #include "engine/base/threads.h"
 #include "engine/base/version.h"
@@ -23,6 +26,20 @@ void bind_errors(py::module_& module) {
       "What a scene or a file says is wrong: one line for everything that is, with place, key, value and rule.";
   py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
       "A computation that could not go on although its input was accepted.";
+  const py::object not_settled = py::reinterpret_steal<py::object>(
+      PyErr_NewExceptionWithDoc("scree.NotSettled",
+                                "A fall whose blocks still move at its end, or overlap too far. Its attribute `packing` is "
+                                "the packing nevertheless.",
+                                module.attr("RunError").ptr(), nullptr));
+  module.attr("NotSettled") = not_settled;
+}
+
+void raise_not_settled(const std::vector<std::string>& reasons, const py::object& packing) {
+  const py::object type = py::module_::import("scree").attr("NotSettled");
+  const py::object error = type(fmt::format("{}", fmt::join(reasons, "; ")));
+  error.attr("packing") = packing;
+  PyErr_SetObject(type.ptr(), error.ptr());
+  throw py::error_already_set();
 }
 
 }  // namespace scree::python

@@ -16,15 +16,24 @@ AnyPacking with_places(packing::Packing<dim> packing) {
   return {PlacedPacking<dim>{std::move(packing), std::move(placed)}};
 }
 
-AnyPacking settle(const SceneSource& source) {
+AnyPacking made(const Scene& scene) {
   const py::gil_scoped_release others_may_run;
   const auto lock = alone();
   const auto progress = [](double) { check_signals(); };
-  if (source.scene.dimension == 2) return with_places(make_packing<2>(source.scene, progress));
-  return with_places(make_packing<3>(source.scene, progress));
+  if (scene.dimension == 2) return with_places(make_packing<2>(scene, progress));
+  return with_places(make_packing<3>(scene, progress));
 }
 
-AnyPacking load(const std::string& file, int dimension) {
+py::object settle(const SceneSource& source) {
+  AnyPacking packing = made(source.scene);
+  const auto faults = std::visit([&](const auto& any) { return faults_of(source.scene, any.packing); }, packing.packing);
+  py::object result = py::cast(std::move(packing));
+  if (!faults.empty()) raise_not_settled(faults, result);
+  return result;
+}
+
+AnyPacking load(const py::object& path, int dimension) {
+  const std::string file = file_name(path);
   if (dimension == 2) return with_places(packing::read<2>(file));
   return with_places(packing::read<3>(file));
 }
@@ -93,13 +102,14 @@ void bind_packing(py::module_& module) {
       .def_property_readonly("report", &report, "What is known of the fall, by the names of summary.json; None without one.")
       .def(
           "save",
-          [](const AnyPacking& packing, const std::string& file) {
-            std::visit([&](const auto& any) { packing::write(any.packing, file); }, packing.packing);
+          [](const AnyPacking& packing, const py::object& file) {
+            std::visit([&](const auto& any) { packing::write(any.packing, file_name(file)); }, packing.packing);
           },
           py::arg("file"), "Writes a packing file, for `packing:` in a scene and for `load_packing`.");
   module.def(
       "settle", &settle, py::arg("scene"),
-      "Lets the blocks of a scene come to rest, in memory: they fall, or stay where they are placed, as the scene says.");
+      "Lets the blocks of a scene come to rest, in memory: they fall, or stay where they are placed, as the scene says. Raises "
+      "NotSettled if they still move at settle.limit, unless the scene has settle.accept_moving.");
   module.def("load_packing", &load, py::arg("file"), py::arg("dimension") = 3, "Reads a packing file.");
 }
 

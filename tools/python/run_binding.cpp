@@ -22,8 +22,8 @@ class KeptHandler {
   struct sigaction before_ {};
 };
 
-py::object run(const SceneSource& source, const std::string& out, bool error_estimate) {
-  const run::RunFiles files{out};
+py::object run(const SceneSource& source, const py::object& out, bool error_estimate) {
+  const run::RunFiles files{file_name(out)};
   {
     const KeptHandler keeps_ctrl_c(SIGINT);
     const KeptHandler keeps_termination(SIGTERM);

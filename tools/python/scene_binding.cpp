@@ -11,10 +11,17 @@ namespace py = pybind11;
 
 namespace {
 
-// A Python value as a scene file would have it. JSON is YAML, and its texts need no quotes here.
+// What json does not know: paths, and the numbers and arrays of numpy.
+py::object plain(const py::object& value) {
+  if (py::hasattr(value, "__fspath__")) return py::module_::import("os").attr("fspath")(value);
+  if (py::hasattr(value, "tolist")) return value.attr("tolist")();
+  throw py::type_error(fmt::format("a scene has no place for a {}", py::repr(py::type::of(value)).cast<std::string>()));
+}
+
+// A Python value as a scene file would have it. JSON is YAML: a text stays the text it is.
 std::string as_yaml(const py::handle& value) {
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  return py::module_::import("json").attr("dumps")(value).cast<std::string>();
+  using namespace py::literals;
+  return py::module_::import("json").attr("dumps")(value, "default"_a = py::cpp_function(&plain)).cast<std::string>();
 }
 
 std::vector<std::string> overrides_of(const py::dict& changes) {
@@ -47,11 +54,11 @@ std::vector<std::string> probe_names(const SceneSource& source) {
   return names;
 }
 
+}  // namespace
+
 std::string file_name(const py::object& path) {
   return py::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
-
-}  // namespace
 
 void bind_scene(py::module_& module) {
   py::class_<SceneSource>(module, "Scene",

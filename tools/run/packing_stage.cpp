@@ -21,8 +21,9 @@ namespace {
 [[noreturn]] void refuse_packing(const Scene& scene, const std::string& rule) {
   Problem problem;
   problem.where = scene.packing_at;
+  if (!scene.packing) problem.where.file = scene.file.string();
   problem.key = "packing";
-  problem.value = scene.packing->string();
+  problem.value = scene.packing ? scene.packing->string() : "of another scene";
   problem.rule = rule;
   problem.suggestion = "Name the bodies of the scene that made the packing, in its order";
   throw InputError(problem);
@@ -43,10 +44,37 @@ packing::Packing<dim> read_named(const Scene& scene) {
   }
 }
 
-// The bodies of a packing file must be those of the scene, since boundaries and materials speak of them.
-template <int dim>
-void adopt_scene_bodies(const Scene& scene, packing::Packing<dim>& packing) {
-  auto& bodies = packing.mesh.bodies;
+packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
+  const SettleStage& stage = *context.scene.settle;
+  output::Series series(context.files.directory, "settle");
+  const auto ids = blocks.blocks.ids();
+  const auto identity = identity_arrays(blocks, Table<BlockId, BlockId>(std::vector(ids.begin(), ids.end())));
+  const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {
+    series.write(grid_at(blocks, poses), {time, {}, identity});
+  };
+  const auto progress = [&](double time, double rms_speed) {
+    check_interrupt();
+    context.progress.update(time / stage.options.limit, fmt::format("{:.2f} s, rms speed {:.1e} m/s", time, rms_speed));
+  };
+  return rigid::settle(blocks, context.scene.materials, stage.options, frame, progress);
+}
+
+PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
+  check_clearance(context.scene, blocks);
+  check_heat(context.scene, blocks);
+  remove_earlier(context);
+  if (packing::stored_key(context.files.packing()) == key) {
+    context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
+    return {packing::read<3>(context.files.packing()), true};
+  }
+  auto packing =
+      context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
+  return {std::move(packing), false};
+}
+
+}  // namespace
+
+void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies) {
   if (bodies.size() != scene.bodies.size()) {
     refuse_packing(scene, fmt::format("it holds {} bodies, the scene {}", bodies.size(), scene.bodies.size()));
   }
@@ -84,40 +112,10 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
   throw InputError(problem);
 }
 
-packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
-  const SettleStage& stage = *context.scene.settle;
-  output::Series series(context.files.directory, "settle");
-  const auto ids = blocks.blocks.ids();
-  const auto identity = identity_arrays(blocks, Table<BlockId, BlockId>(std::vector(ids.begin(), ids.end())));
-  const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {
-    series.write(grid_at(blocks, poses), {time, {}, identity});
-  };
-  const auto progress = [&](double time, double rms_speed) {
-    check_interrupt();
-    context.progress.update(time / stage.options.limit, fmt::format("{:.2f} s, rms speed {:.1e} m/s", time, rms_speed));
-  };
-  return rigid::settle(blocks, context.scene.materials, stage.options, frame, progress);
-}
-
-PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
-  check_clearance(context.scene, blocks);
-  check_heat(context.scene, blocks);
-  remove_earlier(context);
-  if (packing::stored_key(context.files.packing()) == key) {
-    context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
-    return {packing::read<3>(context.files.packing()), true};
-  }
-  auto packing =
-      context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
-  return {std::move(packing), false};
-}
-
-}  // namespace
-
 template <int dim>
 packing::Packing<dim> stored_packing(const Scene& scene) {
   auto packing = read_named<dim>(scene);
-  adopt_scene_bodies(scene, packing);
+  adopt_bodies(scene, packing.mesh.bodies);
   return packing;
 }
 

@@ -12,6 +12,13 @@ struct PackingOutcome {
   bool reused = false;  // from an earlier run whose settle stage had the same key
 };
 
+// The bodies of a packing must be those of the scene, since boundaries and materials speak of them: throws InputError, or gives
+// them the scene's materials.
+void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies);
+
+// Throws InputError if blocks would come to rest too far apart for the scene.
+void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks);
+
 // The packing file the scene names, with the scene's bodies.
 template <int dim>
 packing::Packing<dim> stored_packing(const Scene& scene);

@@ -69,12 +69,6 @@ void say_costs(const std::vector<StageCost>& costs, Progress& progress) {
   }
 }
 
-template <int dim>
-std::size_t free_blocks(const mesh::BlockMesh<dim>& mesh) {
-  return static_cast<std::size_t>(std::count_if(mesh.blocks.begin(), mesh.blocks.end(),
-                                                [&](const mesh::Block& block) { return !mesh.bodies[block.body].fixed; }));
-}
-
 // Runs the stages the scene names and adds what they found to the summary.
 template <int dim>
 Ending run_stages(RunContext& context, Json& summary) {
@@ -91,7 +85,7 @@ Ending run_stages(RunContext& context, Json& summary) {
     const std::size_t lost = outcome.packing.settled->lost_blocks.size();
     if (lost > 0)
       context.progress.note(fmt::format("lost: {} blocks left the scene; settle.lost of the summary names them", lost));
-    auto reasons = unsound(scene, *outcome.packing.settled, free_blocks(outcome.packing.mesh));
+    auto reasons = unsound(scene, outcome.packing);
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
   if (!scene.heat) {

@@ -1,5 +1,7 @@
 #include "tools/run/summary.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "engine/base/version.h"
@@ -213,9 +215,14 @@ void add_stages(Json& summary, const std::vector<StageCost>& costs) {
   summary["stages"] = std::move(stages);
 }
 
-std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report, std::size_t free_blocks) {
+template <int dim>
+std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>& packing) {
   // Whoever names a packing file accepts it as it is; its figures stand in the summary.
-  if (!scene.settle) return {};
+  if (!scene.settle || !packing.settled) return {};
+  const packing::SettleReport& report = *packing.settled;
+  const mesh::BlockMesh<dim>& mesh = packing.mesh;
+  const auto free_blocks = static_cast<std::size_t>(std::count_if(
+      mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::Block& block) { return !mesh.bodies[block.body].fixed; }));
   std::vector<std::string> reasons;
   const double overlap = report.max_penetration / report.mean_edge;
   if (overlap > scene.settle->largest_overlap) {
@@ -264,6 +271,8 @@ std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& s
   return reasons;
 }
 
+template std::vector<std::string> unsound<2>(const Scene&, const packing::Packing<2>&);
+template std::vector<std::string> unsound<3>(const Scene&, const packing::Packing<3>&);
 template void add_packing<2>(Json&, const PackingOutcome<2>&);
 template void add_packing<3>(Json&, const PackingOutcome<3>&);
 template void add_heat<2>(Json&, const Scene&, const HeatOutcome<2>&);

@@ -26,7 +26,8 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
 void add_stages(Json& summary, const std::vector<StageCost>& costs);
 
 // Why a finished run is not sound; empty if it is. Each entry names the figure and what to change.
-std::vector<std::string> unsound(const Scene& scene, const packing::SettleReport& report, std::size_t free_blocks);
+template <int dim>
+std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>& packing);
 std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& state);
 
 }  // namespace scree::run
