@@ -63,8 +63,9 @@ contact::ContactOptions contact_search(const JointOptions& joint, const Table<Bo
 }
 
 template <int dim>
-void check_rules(const JointOptions& joint, const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts) {
-  if (joint.rules.empty()) return;
+std::vector<Problem> unused_rules(const JointOptions& joint, const mesh::BlockMesh<dim>& mesh,
+                                  const contact::ContactSet<dim>& contacts) {
+  if (joint.rules.empty()) return {};
   std::vector<bool> used(joint.rules.size(), false);
   for (const auto& contact : contacts.contacts) {
     const JointRule* rule = rule_between(joint, mesh.bodies, mesh.blocks[contact.owner].body, mesh.blocks[contact.target].body);
@@ -77,10 +78,10 @@ void check_rules(const JointOptions& joint, const mesh::BlockMesh<dim>& mesh, co
                         "must hold for some contact, and none is found that no later joint takes",
                         "Do the two touch? See contact.tolerance, or take it out"});
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
+  return problems;
 }
 
-template void check_rules<2>(const JointOptions&, const mesh::BlockMesh<2>&, const contact::ContactSet<2>&);
-template void check_rules<3>(const JointOptions&, const mesh::BlockMesh<3>&, const contact::ContactSet<3>&);
+template std::vector<Problem> unused_rules<2>(const JointOptions&, const mesh::BlockMesh<2>&, const contact::ContactSet<2>&);
+template std::vector<Problem> unused_rules<3>(const JointOptions&, const mesh::BlockMesh<3>&, const contact::ContactSet<3>&);
 
 }  // namespace scree::thermal

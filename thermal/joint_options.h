@@ -58,8 +58,9 @@ const JointLaw& law_between(const JointOptions& joint, const Table<BodyId, mesh:
 contact::ContactOptions contact_search(const JointOptions& joint, const Table<BodyId, mesh::Body>& bodies,
                                        contact::ContactOptions options);
 
-// Throws InputError for every rule by which no contact goes.
+// A problem for every rule by which no contact goes.
 template <int dim>
-void check_rules(const JointOptions& joint, const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts);
+std::vector<Problem> unused_rules(const JointOptions& joint, const mesh::BlockMesh<dim>& mesh,
+                                  const contact::ContactSet<dim>& contacts);
 
 }  // namespace scree::thermal

@@ -100,6 +100,26 @@ TEST(PouredStones, SettleTheSameWayTwice) {
   }
 }
 
+TEST(AJointBetweenBodiesThatDidNotMeet, IsNoted) {
+  const auto folder = fresh_directory("no_meeting");
+  const std::string bodies = R"(
+materials: {rock: {density: 2000, conductivity: 3, specific_heat: 900, friction: 0.5}}
+bodies:
+  plate: {box: {size: [1, 1, 0.1], centre: [0, 0, -0.05]}, material: rock, mesh_size: 0.5, fixed: true}
+  left: {box: {size: [0.1, 0.1, 0.1], centre: [-0.2, 0, 0.051]}, material: rock, mesh_size: 0.1}
+  right: {box: {size: [0.1, 0.1, 0.1], centre: [0.2, 0, 0.051]}, material: rock, mesh_size: 0.1}
+contact: {joints: [{bodies: [left, plate], conductance: 50}, {bodies: [left, right], conductance: 50}]}
+heat: {initial: 20 degC, boundaries: [{body: plate, temperature: 30 degC}], until: 100 s}
+output: {every: 100 s}
+)";
+  std::ofstream(folder / "fall.yaml") << bodies << "settle: {limit: 6 s}\n";
+  const SceneRun fall = test::run_file(folder / "fall.yaml", folder / "fall");
+  EXPECT_EQ(fall.exit_status, 0);
+  EXPECT_EQ(fall.summary["heat"]["unused_joints"], nlohmann::json({"contact.joints[1]"}));
+  std::ofstream(folder / "placed.yaml") << bodies;
+  EXPECT_EQ(test::run_file(folder / "placed.yaml", folder / "placed").exit_status, 2);
+}
+
 // Two cubes of 100 degC on a plate, and one beside it that falls for ever.
 TEST(ALostBlock, HasNoPartInTheHeat) {
   const auto folder = fresh_directory("lost_block");

@@ -22,6 +22,8 @@ HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim> packing) {
     join(context.scene, pile);
     return true;
   });
+  for (const std::string& key : pile.unused_joints)
+    context.progress.note(fmt::format("contacts: {} holds for none in this packing", key));
   return pile;
 }
 

@@ -46,6 +46,7 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
   packing::Remaining<dim> blocks = packing::remaining(packing);
   pile.mesh = std::move(blocks.mesh);
   pile.places = std::move(blocks.places);
+  pile.settled = packing.settled.has_value();
   pile.probes = output::locate_probes(pile.mesh, scene.probes, probe_reading(scene));
   pile.start = earlier_temperatures(scene, pile.mesh, note);
   pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
@@ -63,7 +64,9 @@ void join(const Scene& scene, HeatedPile<dim>& pile) {
   if (pile.mesh.blocks.size() > 1) {
     pile.contacts = contact::find_contacts(pile.mesh, search_of(scene, pile));
   }
-  thermal::check_rules(joint, pile.mesh, pile.contacts);
+  auto unused = thermal::unused_rules(joint, pile.mesh, pile.contacts);
+  for (const Problem& problem : unused) pile.unused_joints.push_back(problem.key);
+  if (!unused.empty() && !pile.settled) throw InputError(std::move(unused));
   pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint);
 }
 

@@ -20,8 +20,10 @@ template <int dim>
 struct HeatedPile {
   mesh::BlockMesh<dim> mesh;  // as placed, without blocks that left the scene as it settled: they take no part
   packing::Places places;     // of its blocks and nodes in the packing
+  bool settled = false;       // by a fall, and not where a scene placed them
   contact::ContactSet<dim> contacts;
   thermal::JointConduction<dim> joints;
+  std::vector<std::string> unused_joints;  // keys of rules that hold for none of the contacts
   std::vector<output::Probe<dim>> probes;
   std::optional<Eigen::VectorXd> start;  // temperatures of an earlier run, if the scene starts from them [K]
   std::string key;                       // of the heat stage
@@ -43,7 +45,8 @@ std::optional<Aabb<dim>> effective_window(const Scene& scene);
 template <int dim>
 contact::ContactOptions search_of(const Scene& scene, const HeatedPile<dim>& pile);
 
-// Finds where its blocks touch, and what conducts there.
+// Finds where its blocks touch, and what conducts there. Throws InputError for a joint between bodies that do not touch, unless
+// it was a fall that kept them apart.
 template <int dim>
 void join(const Scene& scene, HeatedPile<dim>& pile);
 

@@ -192,6 +192,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
     summary["heat"]["covered_boundaries"].push_back(
         {{"name", boundary.name}, {"area", boundary.area}, {"covered_area", boundary.covered_area}});
   }
+  for (const std::string& key : outcome.pile.unused_joints) summary["heat"]["unused_joints"].push_back(key);
   if (outcome.exact_error) summary["heat"]["exact_error"] = *outcome.exact_error;
   const thermal::MaximumPrinciple principle = thermal::maximum_principle(*outcome.model);
   summary["heat"]["maximum_principle"] = {{"holds", principle.reversed == 0},
