@@ -155,6 +155,21 @@ TEST(ReadStudy, RefusesWhatWouldCountDoubleOrNotAtAll) {
               HasSubstr("heat.until is varied (must not be in set, too: heat.until=3 h)"));
 }
 
+TEST(ReadStudy, RefusesMoreRunsThanAnyoneCouldMakeAndSaysHowMany) {
+  const std::string start = "scene: scene.yaml\nreport: [blocks]\nvary:\n";
+  std::string factors;
+  for (const char* key : {"contact.stiffness_factor", "materials.ore.conductivity"}) {
+    factors += std::string("  - {key: ") + key + ", range: {from: 1, to: 2, points: 100000}}\n";
+  }
+  EXPECT_THAT(wrong_with(start + factors),
+              StartsWith("s.yaml:4:3: vary is 10000000000 runs (must be at most 100000 in all). Take fewer values"));
+  const std::string hypercube = start + "  - {key: contact.stiffness_factor, range: {from: 1, to: 2}}\n" +
+                                "ensemble: {key: settle.seed, members: 1001}\nlatin_hypercube: {points: 100}\n";
+  EXPECT_THAT(wrong_with(hypercube), HasSubstr("vary is 100100 runs"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nreport: [blocks]\nensemble: {key: settle.seed, members: 100001}\n"),
+              HasSubstr("ensemble.members is 100001 (must be a whole number, at least 2 and at most 100000)"));
+}
+
 TEST(ReadStudy, RefusesAStudyOfNothing) {
   EXPECT_THAT(wrong_with("scene: scene.yaml\nreport: [blocks]\n"), HasSubstr("must have vary, ensemble, or both"));
 }

@@ -56,6 +56,13 @@ std::vector<Combination> hypercube(const std::vector<Factor>& factors, const Lat
 
 }  // namespace
 
+double run_count(const Study& study) {
+  double count = study.ensemble ? static_cast<double>(study.ensemble->levels.size()) : 1;
+  if (study.hypercube) return count * study.hypercube->points;
+  for (const Factor& factor : study.factors) count *= static_cast<double>(factor.levels.size());
+  return count;
+}
+
 std::vector<Point> points_of(const Study& study) {
   const auto combinations = study.hypercube ? hypercube(study.factors, *study.hypercube) : grid(study.factors);
   std::vector<Point> points;

@@ -12,6 +12,9 @@ struct Point {
   std::vector<Level> levels;  // in the order of Study::varied()
 };
 
+// How many points there are, before any of them is made.
+double run_count(const Study& study);
+
 // Every combination, the first key slowest, or the points of the Latin hypercube; the members of the ensemble fastest.
 std::vector<Point> points_of(const Study& study);
 

@@ -9,6 +9,7 @@
 #include "engine/base/checked_input.h"
 #include "engine/base/nearest.h"
 #include "tools/scene/keys.h"
+#include "tools/study/design.h"
 #include "tools/study/scene_key.h"
 #include "tools/study/study_keys.h"
 
@@ -156,7 +157,7 @@ class Reader {
     if (key != nullptr && key->type != KeyType::integer) {
       refuse(ensemble.at("key"), "must be a key that takes integers, such as settle.seed or bodies.NAME.random.seed");
     }
-    const int first = ensemble.at("first").integer();
+    const std::int64_t first = ensemble.at("first").integer();
     for (int i = 0; i < ensemble.at("members").integer(); ++i) {
       factor.levels.push_back({fmt::format("{}", first + i), static_cast<double>(first + i), ensemble.where});
     }
@@ -186,6 +187,7 @@ class Reader {
     if (study.hypercube && study.factors.empty()) {
       problems_.push_back(root.at("latin_hypercube").problem("without use", "of use only with vary", "Take it out"));
     }
+    refuse_too_many(study, root);
     std::set<std::string> names{"run",    "point",        "directory",         "status",
                                 "reason", "wall_seconds", "peak_memory_bytes", "columns"};
     const auto add = [&](const std::string& name, const SourceLocation& where) {
@@ -205,6 +207,15 @@ class Reader {
       if (report.column.find('/') == std::string::npos) continue;
       problems_.push_back({report.where, "a column", report.column, "a name must not hold a slash", ""});
     }
+  }
+
+  void refuse_too_many(const Study& study, const Checked& root) {
+    const double count = run_count(study);
+    if (!(count > most_runs)) return;
+    const Checked& varied = root.at(study.factors.empty() ? "ensemble" : "vary");
+    problems_.push_back(
+        varied.problem(fmt::format("{:.15g} runs", count), fmt::format("must be at most {:.0f} in all", most_runs),
+                       study.hypercube ? "Take fewer points or members" : "Take fewer values, or latin_hypercube"));
   }
 
   void refuse_set(const Study& study, const std::string& key, const SourceLocation& where) {

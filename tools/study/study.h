@@ -40,6 +40,9 @@ struct Factor {
   [[nodiscard]] const std::string& name() const { return keys.front(); }
 };
 
+// More would take days even of the smallest runs, and the plan alone minutes.
+constexpr double most_runs = 1e5;
+
 struct LatinHypercube {
   int points = 0;
   std::uint64_t seed = 1;

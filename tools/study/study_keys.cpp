@@ -1,6 +1,7 @@
 #include "tools/study/study_keys.h"
 
 #include "engine/base/key_row.h"
+#include "tools/study/study.h"
 
 namespace scree::study {
 
@@ -9,7 +10,7 @@ namespace {
 using enum KeyType;
 namespace q = quantity;
 
-constexpr Range many{.low = 2, .high = 1e6};
+constexpr Range many{.low = 2, .high = most_runs};
 
 std::vector<Key> varied_keys() {
   return {
