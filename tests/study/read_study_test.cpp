@@ -155,6 +155,46 @@ TEST(ReadStudy, RefusesWhatWouldCountDoubleOrNotAtAll) {
               HasSubstr("heat.until is varied (must not be in set, too: heat.until=3 h)"));
 }
 
+TEST(ReadStudy, TakesThePathOfAKeyInOneOfItsTwoSpellingsOnly) {
+  const auto with = [](const std::string& key) {
+    return wrong_with("scene: scene.yaml\nvary: [{key: \"" + key + "\", values: [401]}]\nreport: [blocks]\n");
+  };
+  for (const char* good : {"heat.boundaries[0].temperature", "heat.boundaries.0.temperature"})
+    EXPECT_EQ(with(good), "accepted");
+  for (const char* wrong : {"heat.boundaries.[0].temperature", "heat.boundaries[00].temperature",
+                            "heat.boundaries.00.temperature", "heat.boundaries[].temperature", "heat.boundaries[x].temperature",
+                            "heat.boundaries..0.temperature", "heat.boundaries[0].temprature"}) {
+    EXPECT_THAT(with(wrong), AllOf(StartsWith("s.yaml:2:14: vary[0].key is "),
+                                   HasSubstr("(must be the path of a key of the scene). Did you mean "
+                                             "heat.boundaries[0].temperature?")))
+        << wrong;
+  }
+  EXPECT_THAT(with("bodies.block.mesh_sze"), HasSubstr("Did you mean bodies.block.mesh_size?"));
+  EXPECT_THAT(with("bodies.*.mesh_size"), HasSubstr("Did you mean bodies.NAME.mesh_size?"));
+  EXPECT_THAT(with("bodies[block].mesh_size"), HasSubstr("Did you mean bodies.NAME.mesh_size?"));
+}
+
+TEST(ReadStudy, RefusesKeysThatGiveTheSameValueTwice) {
+  const auto with = [](const std::string& one, const std::string& other) {
+    return wrong_with("scene: scene.yaml\nreport: [blocks]\nvary:\n  - {key: " + one + ", values: [1]}\n  - {key: " + other +
+                      ", values: [1]}\n");
+  };
+  EXPECT_THAT(with("\"heat.boundaries[0].temperature\"", "heat.boundaries.0.temperature"),
+              StartsWith("s.yaml:5:11: heat.boundaries.0.temperature is varied (must not be heat.boundaries[0].temperature, "
+                         "which is varied at line 4). Take one of the two out"));
+  EXPECT_THAT(with("heat", "heat.until"), HasSubstr("heat.until is varied (must not lie inside heat, which"));
+  EXPECT_THAT(with("materials.ore.conductivity", "materials.ore"),
+              HasSubstr("materials.ore is varied (must not hold materials.ore.conductivity, which"));
+  EXPECT_THAT(with("contact.stiffness_factor, also: [contact.stiffness_factor]", "heat.until"), HasSubstr("s.yaml:4:44: "));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nreport: [blocks]\nset: [settle.seed=4]\nvary: [{key: heat, values: [1]}]\n"
+                         "ensemble: {key: settle.seed, members: 2}\n"),
+              HasSubstr("s.yaml:5:17: settle.seed is varied (must not be in set, too: settle.seed=4)"));
+  EXPECT_EQ(wrong_with("scene: scene.yaml\nreport: [blocks]\nset: [\"heat.boundaries=[{body: plate, temperature: 350}]\"]\n"
+                       "vary: [{key: heat.boundaries.0.temperature, values: [400]}]\n"),
+            "accepted")
+      << "what varies may lie in what was set before";
+}
+
 TEST(ReadStudy, RefusesMoreRunsThanAnyoneCouldMakeAndSaysHowMany) {
   const std::string start = "scene: scene.yaml\nreport: [blocks]\nvary:\n";
   std::string factors;

@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/checked_input.h"
-#include "engine/base/nearest.h"
-#include "tools/scene/keys.h"
 #include "tools/study/design.h"
-#include "tools/study/scene_key.h"
+#include "tools/study/given_keys.h"
 #include "tools/study/study_keys.h"
 
 namespace scree::study {
@@ -54,39 +52,40 @@ class Reader {
     return (fs::absolute(file_).parent_path() / path).lexically_normal();
   }
 
-  // The row of a scene's key; refuses a path that is none.
-  const Key* key_of(const Checked& path) {
-    const Key* key = path.sound ? scene_key(path.text) : nullptr;
-    if (path.sound && key == nullptr) {
-      std::vector<std::string> known;
-      for (const Key& candidate : scene_keys().keys()) known.push_back(candidate.path);
-      const auto close = nearest(path.text, known);
-      refuse(path, "must be the path of a key of the scene",
-             close ? fmt::format("Did you mean {}?", *close) : "`scree keys` lists them all");
+  // The row of a scene's key that varies; refuses a path that is none.
+  const Key* varied_key(const Checked& path) {
+    if (!path.sound) return nullptr;
+    const auto found = scene_path(path.text);
+    if (!found) {
+      refuse(path, "must be the path of a key of the scene", suggest_path(path.text));
+      return nullptr;
     }
-    return key;
+    varied_.push_back({path.text, *found, path.where});
+    return found->key;
   }
 
   // A path in this file is relative to it.
   std::string assignment(const Checked& change) {
     const auto equals = change.text.find('=');
-    const Key* key = equals == std::string::npos ? nullptr : scene_key(change.text.substr(0, equals));
-    if (key == nullptr) {
-      if (change.sound) refuse(change, "must be KEY=VALUE, with the path of a key of the scene", "`scree keys` lists them all");
+    const std::string path = change.text.substr(0, equals);
+    const auto found = equals == std::string::npos ? std::nullopt : scene_path(path);
+    if (!found) {
+      if (change.sound) refuse(change, "must be KEY=VALUE, with the path of a key of the scene", suggest_path(path));
       return change.text;
     }
+    set_.push_back({change.text, *found, change.where});
     const std::string value = change.text.substr(equals + 1);
-    if (key->type != KeyType::path || value == "null") return change.text;
-    return fmt::format("{}={}", change.text.substr(0, equals), in_folder(value).string());
+    if (found->key->type != KeyType::path || value == "null") return change.text;
+    return fmt::format("{}={}", path, in_folder(value).string());
   }
 
   Factor factor(const Checked& varied) {
     Factor factor;
     factor.where = varied.where;
     factor.keys.push_back(varied.at("key").text);
-    const Key* key = key_of(varied.at("key"));
+    const Key* key = varied_key(varied.at("key"));
     for (const Checked& other : varied.at("also").items) {
-      key_of(other);
+      varied_key(other);
       factor.keys.push_back(other.text);
     }
     if (const Checked* values = varied.find("values")) {
@@ -153,7 +152,7 @@ class Reader {
     Factor factor;
     factor.where = ensemble.where;
     factor.keys.push_back(ensemble.at("key").text);
-    const Key* key = key_of(ensemble.at("key"));
+    const Key* key = varied_key(ensemble.at("key"));
     if (key != nullptr && key->type != KeyType::integer) {
       refuse(ensemble.at("key"), "must be a key that takes integers, such as settle.seed or bodies.NAME.random.seed");
     }
@@ -188,22 +187,15 @@ class Reader {
       problems_.push_back(root.at("latin_hypercube").problem("without use", "of use only with vary", "Take it out"));
     }
     refuse_too_many(study, root);
+    for (Problem& problem : overlaps(varied_, set_)) problems_.push_back(std::move(problem));
     std::set<std::string> names{"run",    "point",        "directory",         "status",
                                 "reason", "wall_seconds", "peak_memory_bytes", "columns"};
-    const auto add = [&](const std::string& name, const SourceLocation& where) {
-      if (!names.insert(name).second) {
-        problems_.push_back({where, "a column", name, "every column must have a name of its own", "Take one out"});
-      }
-    };
-    for (const Factor& factor : study.factors) {
-      for (const std::string& key : factor.keys) {
-        add(key, factor.where);
-        refuse_set(study, key, factor.where);
-      }
-    }
-    if (study.ensemble) add(study.ensemble->name(), study.ensemble->where);
+    for (const GivenKey& key : varied_) names.insert(key.text);
     for (const Report& report : study.reports) {
-      add(report.column, report.where);
+      if (!names.insert(report.column).second) {
+        problems_.push_back(
+            {report.where, "a column", report.column, "every column must have a name of its own", "Take one out"});
+      }
       if (report.column.find('/') == std::string::npos) continue;
       problems_.push_back({report.where, "a column", report.column, "a name must not hold a slash", ""});
     }
@@ -218,15 +210,10 @@ class Reader {
                        study.hypercube ? "Take fewer points or members" : "Take fewer values, or latin_hypercube"));
   }
 
-  void refuse_set(const Study& study, const std::string& key, const SourceLocation& where) {
-    for (const std::string& change : study.overrides) {
-      if (!change.starts_with(key + "=")) continue;
-      problems_.push_back({where, key, "varied", "must not be in set, too: " + change, "Take one of the two out"});
-    }
-  }
-
   fs::path file_;
   Problems& problems_;
+  std::vector<GivenKey> varied_;
+  std::vector<GivenKey> set_;
 };
 
 }  // namespace
