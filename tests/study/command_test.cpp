@@ -208,6 +208,20 @@ TEST(StudyCommand, RefusesWhatIsWrongBeforeAnyRun) {
   EXPECT_FALSE(fs::exists(study.out));
 }
 
+TEST(StudyCommand, SaysThatEqualPointsOfALatinHypercubeAreMadeOnce) {
+  const OneStudy study(R"(
+scene: scene.yaml
+vary: [{key: heat.until, values: [1 h, 2 h]}]
+latin_hypercube: {points: 6}
+report: [heat.time]
+)");
+  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.text, HasSubstr("2 runs instead of 6"));
+  EXPECT_EQ(study.run().status, 0);
+  EXPECT_EQ(study.table().rows(), 2u);
+}
+
 TEST(StudyCommand, SaysWhenAFigureIsInNoSummary) {
   const OneStudy study("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h]}]\nreport: [heat.tme]\n");
   const Ended ended = study.run();

@@ -1,6 +1,8 @@
 // What a study file may say, and what is said of one that is wrong.
 #include "tests/study/study_text.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 
 namespace scree::study {
@@ -62,6 +64,22 @@ report: [heat.time_error]
   other.hypercube->seed = 8;
   EXPECT_NE(points_of(other)[0].levels[0].text, points[0].levels[0].text);
   EXPECT_EQ(points_of(study)[0].levels[0].text, points[0].levels[0].text);
+}
+
+TEST(ReadStudy, MakesEqualPointsOfALatinHypercubeOnce) {
+  const Study study = study_of(R"(
+scene: scene.yaml
+vary: [{key: settle.iterations, range: {from: 78, to: 80}}, {key: heat.until, values: [1 h, 2 h]}]
+latin_hypercube: {points: 60}
+ensemble: {key: settle.seed, members: 2}
+report: [heat.time_error]
+)");
+  std::set<std::string> different;
+  const auto points = points_of(study);
+  for (const Point& point : points) different.insert(point.levels[0].text + point.levels[1].text + point.levels[2].text);
+  EXPECT_EQ(different.size(), points.size());
+  EXPECT_EQ(points.size(), 12u) << "60 points miss none of 3 x 2";
+  EXPECT_EQ(points.back().number, 5u);
 }
 
 TEST(ReadStudy, RepeatsEveryPointForAnEnsembleAndLetsHeatsShareTheirPacking) {

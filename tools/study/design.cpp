@@ -1,6 +1,7 @@
 #include "tools/study/design.h"
 
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "engine/mesh/random_numbers.h"
@@ -54,6 +55,17 @@ std::vector<Combination> hypercube(const std::vector<Factor>& factors, const Lat
   return combinations;
 }
 
+// Integers and short lists bring points that are equal in everything; a run that is made twice would count double.
+std::vector<Combination> without_repeats(std::vector<Combination> combinations) {
+  std::set<std::vector<std::string>> seen;
+  std::erase_if(combinations, [&](const Combination& combination) {
+    std::vector<std::string> texts;
+    for (const Level& level : combination) texts.push_back(level.text);
+    return !seen.insert(std::move(texts)).second;
+  });
+  return combinations;
+}
+
 }  // namespace
 
 double run_count(const Study& study) {
@@ -64,7 +76,7 @@ double run_count(const Study& study) {
 }
 
 std::vector<Point> points_of(const Study& study) {
-  const auto combinations = study.hypercube ? hypercube(study.factors, *study.hypercube) : grid(study.factors);
+  const auto combinations = study.hypercube ? without_repeats(hypercube(study.factors, *study.hypercube)) : grid(study.factors);
   std::vector<Point> points;
   for (std::size_t i = 0; i < combinations.size(); ++i) {
     const std::size_t members = study.ensemble ? study.ensemble->levels.size() : 1;

@@ -12,10 +12,11 @@ struct Point {
   std::vector<Level> levels;  // in the order of Study::varied()
 };
 
-// How many points there are, before any of them is made.
+// How many points are asked for, before any of them is made.
 double run_count(const Study& study);
 
-// Every combination, the first key slowest, or the points of the Latin hypercube; the members of the ensemble fastest.
+// Every combination, the first key slowest, or the points of the Latin hypercube that differ; the members of the ensemble
+// fastest.
 std::vector<Point> points_of(const Study& study);
 
 }  // namespace scree::study

@@ -131,6 +131,14 @@ fs::path directory_of(const Arguments& arguments) {
   return arguments.directory.empty() ? fs::path("out") / fs::path(arguments.study).stem() : fs::path(arguments.directory);
 }
 
+// What was asked for and is not among the runs.
+void say_repeats(const Study& study, const std::vector<PlannedRun>& runs, Progress& progress) {
+  const double asked = run_count(study);
+  if (asked == static_cast<double>(runs.size())) return;
+  progress.note(fmt::format("study: {} runs instead of {:.0f}, for points of the Latin hypercube that are equal are made once",
+                            runs.size(), asked));
+}
+
 int dispatch(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   if (arguments.gather) {
     Progress progress(mode_of(arguments));
@@ -169,6 +177,10 @@ void declare(CLI::App& command, Arguments& arguments) {
 int run(const Arguments& arguments) {
   const Study study = read_study(arguments.study);
   const std::vector<PlannedRun> runs = plan(study);
+  {
+    Progress progress(mode_of(arguments));
+    say_repeats(study, runs, progress);
+  }
   if (arguments.list) return list(runs);
   const StudyFiles files{directory_of(arguments)};
   std::error_code error;

@@ -38,7 +38,8 @@ std::vector<Key> varied_keys() {
 
 std::vector<Key> other_keys() {
   return {
-      row("latin_hypercube", section, "So many points, each in a layer of its own along every varied key."),
+      row("latin_hypercube", section,
+          "So many points, each in a layer of its own along every varied key; equal ones are one run."),
       row("latin_hypercube.points", integer, "How many.").range(many).required(),
       row("latin_hypercube.seed", integer, "Another seed, other points.").range(not_negative).fallback("1"),
       row("ensemble", section, "Repeats every combination with another chance, for means and their confidence."),
