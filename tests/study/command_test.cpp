@@ -261,6 +261,27 @@ TEST(StudyCommand, WaitsForRunsThatAKilledStudyHasLeftBehind) {
   EXPECT_EQ(status, 0);
 }
 
+TEST(StudyCommand, KeepsThePackingAndTheTimeOfARunThatAKilledStudyHasLeftBehind) {
+  const OneStudy study(slow_study());
+  while_it_runs(study, "kill -KILL $study; wait $study");
+  int status = 1;
+  for (int i = 0; i < 300 && status != 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    status = study.run().status;
+  }
+  ASSERT_EQ(status, 0);
+  const study::Table table = study.table();
+  const auto first = study.summary(0);
+  double stages = 0;
+  for (const auto& stage : first["stages"]) stages += stage["wall_seconds"].get<double>();
+  EXPECT_FALSE(fs::exists(study.out / table.find("directory")->texts[0] / "outcome.json")) << "nobody saw it end";
+  EXPECT_DOUBLE_EQ(table.find("wall_seconds")->numbers[0], stages);
+  EXPECT_GT(stages, 0);
+  int settled = 0;
+  for (std::size_t i = 0; i < 4; ++i) settled += settled_here(study.summary(i)) ? 1 : 0;
+  EXPECT_EQ(settled, 2) << "once per seed";
+}
+
 TEST(StudyCommand, WritesAScriptForGnuParallelThatMakesAndGathersItsRuns) {
   if (std::system("command -v parallel > /dev/null") != 0)
     GTEST_SKIP() << "GNU parallel is not there: apt-get install parallel";

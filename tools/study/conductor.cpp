@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "engine/base/threads.h"
-#include "engine/packing/packing.h"
 #include "tools/run/interrupt.h"
 #include "tools/study/outcome.h"
+#include "tools/study/packings.h"
 
 namespace scree::study {
 
@@ -19,14 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr auto pause = std::chrono::milliseconds(20);  // between two looks at the runs
 constexpr double reserve = 1.1;                        // memory kept for a run over the largest so far
-
-// The same file under another name, or a copy where the file system has no such links. Files of packings are replaced, never
-// changed, so that sharing one is safe.
-void share(const fs::path& file, const fs::path& name) {
-  std::error_code no_link;
-  fs::create_hard_link(file, name, no_link);
-  if (no_link && !fs::exists(name)) fs::copy_file(file, name);
-}
 
 }  // namespace
 
@@ -116,7 +108,7 @@ void Conductor::start(const PlannedRun& run, std::optional<run::FileLock> settli
   const run::RunFiles own = files_.run(run.directory);
   fs::create_directories(own.directory);
   fs::remove(files_.outcome(run.directory));
-  if (!run.packing.empty() && !settling && !fs::exists(own.packing())) share(files_.packing(run.packing), own.packing());
+  if (!run.packing.empty() && !settling) take_packing(files_, run);
   active_.push_back({&run, run::ChildProcess(command_of(run), files_.log(run.directory)), std::move(settling)});
 }
 
@@ -137,18 +129,11 @@ std::vector<std::string> Conductor::command_of(const PlannedRun& run) const {
   return words;
 }
 
-// As soon as the run has written its packing, and before its own heat.
-void Conductor::publish_packing(Active& active) const {
-  const fs::path made = files_.run(active.run->directory).packing();
-  if (!active.settling || !fs::exists(made) || !packing::stored_key(made)) return;
-  share(made, files_.packing(active.run->packing));
-  active.settling.reset();
-}
-
 void Conductor::collect() {
   for (std::size_t i = 0; i < active_.size();) {
     const auto end = active_[i].process.poll();
-    publish_packing(active_[i]);
+    // As soon as the run has written its packing, and before its own heat.
+    if (active_[i].settling && publish_packing(files_, *active_[i].run)) active_[i].settling.reset();
     if (end) {
       finish(active_[i], *end);
       active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));

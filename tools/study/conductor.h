@@ -46,7 +46,6 @@ class Conductor {
   bool try_start(const PlannedRun& run);
   void start(const PlannedRun& run, std::optional<run::FileLock> settling);
   [[nodiscard]] std::vector<std::string> command_of(const PlannedRun& run) const;
-  void publish_packing(Active& active) const;
   void collect();
   void finish(Active& active, const run::ChildEnd& end);
   void stop_all();

@@ -41,15 +41,21 @@ Outcome read_outcome(const StudyFiles& files, const std::string& run) {
   Outcome outcome;
   outcome.summary = read_json(files.run(run).summary());
   const Json end = read_json(files.outcome(run));
+  double stages = 0;
   if (!outcome.summary.is_null()) {
     outcome.status = outcome.summary.value("status", "running");
     const auto reasons = outcome.summary.value("reasons", std::vector<std::string>{});
     outcome.reason = fmt::format("{}", fmt::join(reasons, "; "));
     for (const Json& stage : outcome.summary.value("stages", Json::array())) {
+      stages += stage.value("wall_seconds", 0.0);
       outcome.peak_memory_bytes = std::max(outcome.peak_memory_bytes, stage.value("peak_memory_bytes", 0.0));
     }
   }
-  if (end.is_null()) return outcome;
+  if (end.is_null()) {
+    // Whoever started it was killed before it ended.
+    if (outcome.is_final()) outcome.wall_seconds = stages;
+    return outcome;
+  }
   outcome.wall_seconds = end.value("wall_seconds", 0.0);
   outcome.peak_memory_bytes = std::max(outcome.peak_memory_bytes, end.value("peak_memory_bytes", 0.0));
   // The process has ended, and its summary does not know.

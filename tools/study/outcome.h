@@ -11,7 +11,7 @@ namespace scree::study {
 struct Outcome {
   std::string status = "pending";  // or as summary.json has it, or crashed
   std::string reason;              // why it is not complete
-  double wall_seconds = 0;         // of its last start; 0 if that has not ended
+  double wall_seconds = 0;         // of its last start, or of its stages if nobody saw its end; 0 before it
   double peak_memory_bytes = 0;
   nlohmann::json summary;  // null if there is none
 

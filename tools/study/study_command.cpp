@@ -16,6 +16,7 @@
 #include "tools/study/gather.h"
 #include "tools/study/memory.h"
 #include "tools/study/outcome.h"
+#include "tools/study/packings.h"
 #include "tools/study/read_study.h"
 
 namespace scree::study {
@@ -79,6 +80,7 @@ run::FileLock lock_of(const StudyFiles& files, run::FileLock::Kind kind) {
 
 int make_all(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   const run::FileLock lock = lock_of(files, run::FileLock::Kind::exclusive);
+  publish_packings(files, runs);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("{} runs", runs.size()));
   Means means;
@@ -100,6 +102,7 @@ int make_one(const Arguments& arguments, const Study& study, const std::vector<P
     throw InputError(problem);
   }
   const run::FileLock lock = lock_of(files, run::FileLock::Kind::shared);
+  publish_packings(files, runs);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("run {}", arguments.task));
   const Means means{1, given(arguments.threads), available_memory()};
