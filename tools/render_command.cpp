@@ -12,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/units.h"
 #include "engine/output/render.h"
+#include "tools/run/interrupt.h"
 
 namespace scree {
 
@@ -103,13 +104,37 @@ void check_picture(const std::filesystem::path& png) {
 constexpr int animation_width = 840;
 constexpr int animation_height = 490;
 
+constexpr double shortest = 0.1;  // [s]; of an animation
+constexpr double longest = 3600;
+
+std::optional<double> duration_of(const RenderArguments& arguments) {
+  if (arguments.duration.empty()) return std::nullopt;
+  const double duration = number("--duration", arguments.duration, quantity::time);
+  if (!(duration >= shortest && duration <= longest)) refuse("--duration", arguments.duration, "must be from 0.1 s to 1 h");
+  return duration;
+}
+
+// Ctrl-C reaches ffmpeg, too, which then fails first.
+void animate_or_stop(const output::Picture& picture, const output::Film& film, const std::string& video) {
+  run::catch_interrupts();
+  try {
+    output::animate(picture, film, video);
+  } catch (const RunError&) {
+    run::check_interrupt();
+    throw;
+  }
+}
+
 int animate(const RenderArguments& arguments, output::Picture picture) {
   picture.width = animation_width;
   picture.height = animation_height;
-  const double duration = number("--duration", arguments.duration, quantity::time);
-  if (!(duration > 0)) refuse("--duration", arguments.duration, "positive");
   if (picture.time) refuse("--time", arguments.time, "not given with --animation, which shows all frames");
-  output::animate(picture, duration, arguments.animation);
+  try {
+    animate_or_stop(picture, {duration_of(arguments), run::check_interrupt}, arguments.animation);
+  } catch (const run::Interrupted&) {
+    fmt::print(stderr, "scree: interrupted; there is no {}\n", arguments.animation);
+    return 130;
+  }
   fmt::print("{}\n", arguments.animation);
   return 0;
 }
@@ -127,8 +152,11 @@ void declare_render(CLI::App& command, RenderArguments& arguments) {
                    "contacts as lines between their blocks, coloured by the size of their heat flow");
   CLI::Option* animation =
       command.add_option("--animation", arguments.animation, "all frames as a video instead: FILE.webm or FILE.mp4");
-  command.add_option("--duration", arguments.duration, "of the animation, such as \"20 s\" (default: 10 s)")->needs(animation);
-  command.add_option("--picture", arguments.picture, "the PNG (default: SERIES.png in the run's directory)");
+  command
+      .add_option("--duration", arguments.duration, "of the animation, such as \"20 s\" (default: 10 s, less of few frames)")
+      ->needs(animation);
+  command.add_option("--picture", arguments.picture, "the PNG (default: SERIES.png in the run's directory)")
+      ->excludes(animation);
 }
 
 int render_command(const RenderArguments& arguments) {
@@ -141,7 +169,10 @@ int render_command(const RenderArguments& arguments) {
   picture.array = look.array;
   picture.title = look.title;
   picture.offset = look.offset;
-  if (!arguments.time.empty()) picture.time = number("--time", arguments.time, quantity::time);
+  if (!arguments.time.empty()) {
+    picture.time = number("--time", arguments.time, quantity::time);
+    if (!(*picture.time >= 0)) refuse("--time", arguments.time, "must be not negative");
+  }
   if (!arguments.cut.empty()) picture.cut = number("--cut", arguments.cut, quantity::length);
   if (!arguments.view.empty()) picture.view = view_of(arguments.view);
   picture.lines = arguments.lines;

@@ -16,7 +16,7 @@ struct RenderArguments {
   std::vector<std::string> view;  // low and high corner, six quantities; empty: everything
   bool lines = false;             // contacts as lines
   std::string animation;          // a video instead of a picture; empty: a picture
-  std::string duration = "10 s";  // of the animation, a quantity
+  std::string duration;           // of the animation, a quantity; empty: as suits the series
   std::string picture;            // empty: SERIES.png in the run's directory
 };
 

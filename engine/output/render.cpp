@@ -19,8 +19,10 @@ namespace scree::output {
 
 namespace {
 
-constexpr double fewest_per_second = 2;  // frames of an animation; fewer are a slide show
-constexpr double most_per_second = 15;
+// Unless told how long an animation is. Fewer frames in a second are a slide show.
+constexpr double usual_duration = 10;  // [s]
+constexpr double fewest_per_second = 2;
+constexpr double most_per_second = 15;  // whatever is told
 // Of the flows of contacts, the part that the legend of lines spans: the strongest few would make all others look cold.
 constexpr double shown_part = 0.98;
 constexpr std::size_t points_per_frame = 5000;  // that the camera of an animation looks at
@@ -79,6 +81,16 @@ std::vector<SeriesEntry> thinned(const std::vector<SeriesEntry>& entries, double
   return chosen;
 }
 
+double rate_of(std::size_t frames, const Film& film) {
+  const double count = static_cast<double>(frames);
+  const double wanted = film.duration ? count / *film.duration : std::max(count / usual_duration, fewest_per_second);
+  return std::min(wanted, most_per_second);
+}
+
+void tell(const Film& film) {
+  if (film.before_frame) film.before_frame();
+}
+
 // What all frames have in common: the legend, and where the camera looks.
 struct Common {
   vtkDataArray* array = nullptr;  // of `last`
@@ -87,9 +99,10 @@ struct Common {
   std::vector<Eigen::Vector3d> points;
 };
 
-Common look_through(const Picture& picture, const std::vector<SeriesEntry>& entries) {
+Common look_through(const Picture& picture, const Film& film, const std::vector<SeriesEntry>& entries) {
   Common common;
   for (const SeriesEntry& entry : entries) {
+    tell(film);
     common.last = read_shown(picture, entry);
     common.array = common.last.array;
     const Range range = range_of(*common.array, picture);
@@ -114,13 +127,13 @@ double render(const Picture& picture, const std::filesystem::path& png) {
   return frame.time;
 }
 
-void animate(const Picture& picture, double duration, const std::filesystem::path& video) {
-  const auto entries = thinned(frames_of(picture), duration);
-  const Common common = look_through(picture, entries);
+void animate(const Picture& picture, const Film& film, const std::filesystem::path& video) {
+  const auto entries = thinned(frames_of(picture), film.duration.value_or(usual_duration));
+  const Common common = look_through(picture, film, entries);
   Canvas canvas(picture, make_colours(*common.array, common.range), common.points);
-  const double rate = std::clamp(static_cast<double>(entries.size()) / duration, fewest_per_second, most_per_second);
-  write_video(video, {picture.width, picture.height, rate}, [&](const TakeImage& take) {
+  write_video(video, {picture.width, picture.height, rate_of(entries.size(), film)}, [&](const TakeImage& take) {
     for (const SeriesEntry& entry : entries) {
+      tell(film);
       const auto image = canvas.draw(read_shown(picture, entry));
       take(static_cast<const unsigned char*>(image->GetScalarPointer()));
     }

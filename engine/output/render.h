@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -30,8 +31,13 @@ struct Picture {
 // be written, or a missing Xvfb.
 double render(const Picture& picture, const std::filesystem::path& png);
 
-// Draws all frames, or as many as can be seen in `duration` [s], into a video: .webm (VP9) or .mp4 (H.264), both of which
-// browsers play. One legend and one camera for all. Throws as `render` does, and RunError without ffmpeg.
-void animate(const Picture& picture, double duration, const std::filesystem::path& video);
+struct Film {
+  std::optional<double> duration;      // [s]; 10 s if not given, or less where frames would stand still for long
+  std::function<void()> before_frame;  // may throw to stop: no file is left then
+};
+
+// Draws all frames, or as many as can be seen in the time, into a video: .webm (VP9) or .mp4 (H.264), both of which browsers
+// play. One legend and one camera for all. Throws as `render` does, and RunError without ffmpeg.
+void animate(const Picture& picture, const Film& film, const std::filesystem::path& video);
 
 }  // namespace scree::output

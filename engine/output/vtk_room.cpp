@@ -17,8 +17,8 @@ double render(const Picture& picture, const std::filesystem::path& png) {
   return room().render(picture, png);
 }
 
-void animate(const Picture& picture, double duration, const std::filesystem::path& video) {
-  room().animate(picture, duration, video);
+void animate(const Picture& picture, const Film& film, const std::filesystem::path& video) {
+  room().animate(picture, film, video);
 }
 
 mesh::RawMesh read_vtu(const std::filesystem::path& file) {

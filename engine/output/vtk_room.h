@@ -12,7 +12,7 @@ namespace scree::output {
 // In the library, the functions of the same names in namespace vtk.
 struct VtkRoom {
   double (*render)(const Picture&, const std::filesystem::path&);
-  void (*animate)(const Picture&, double, const std::filesystem::path&);
+  void (*animate)(const Picture&, const Film&, const std::filesystem::path&);
   mesh::RawMesh (*read_vtu)(const std::filesystem::path&);
   NodalField (*read_stored_2)(const StoredField&, const mesh::BlockMesh<2>&);
   NodalField (*read_stored_3)(const StoredField&, const mesh::BlockMesh<3>&);
@@ -21,7 +21,7 @@ struct VtkRoom {
 namespace vtk {
 
 double render(const Picture& picture, const std::filesystem::path& png);
-void animate(const Picture& picture, double duration, const std::filesystem::path& video);
+void animate(const Picture& picture, const Film& film, const std::filesystem::path& video);
 mesh::RawMesh read_vtu(const std::filesystem::path& file);
 template <int dim>
 NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& mesh);

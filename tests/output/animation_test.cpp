@@ -60,7 +60,7 @@ class AnimationTest : public ::testing::Test {
 TEST_F(AnimationTest, TheHeapIsColdInTheFirstFrameAndHotBelowInTheLastOnOneScale) {
   for (const char* name : {"heat.webm", "heat.mp4"}) {
     const auto video = folder_.path() / name;
-    animate(picture_, 1, video);
+    animate(picture_, {1, {}}, video);
     EXPECT_LT(find_pixels(frame(video, 0), scene_columns, is_hot).pixels, 50) << name;
     EXPECT_GT(find_pixels(frame(video, 0), scene_columns, is_cold).pixels, 4000) << name;
     const Patch hot = find_pixels(frame(video, 1), scene_columns, is_hot);
@@ -69,21 +69,51 @@ TEST_F(AnimationTest, TheHeapIsColdInTheFirstFrameAndHotBelowInTheLastOnOneScale
   }
 }
 
+TEST_F(AnimationTest, LastsAsLongAsAskedForAndIsNoSlideShowUnlessAsked) {
+  const auto seconds = [&](const std::optional<double>& duration, const char* name) {
+    const auto video = folder_.path() / name;
+    const auto said = folder_.path() / "seconds";
+    animate(picture_, {duration, {}}, video);
+    const std::string command = "ffprobe -v error -show_entries format=duration -of csv=p=0 " + video.string();
+    EXPECT_EQ(std::system((command + " > " + said.string()).c_str()), 0);
+    return std::stod(content(said));
+  };
+  for (const char* name : {"heat.webm", "heat.mp4"}) {
+    EXPECT_NEAR(seconds(30, name), 30, 0.01) << name;
+    EXPECT_NEAR(seconds(0.5, name), 0.5, 0.01) << name;
+    EXPECT_NEAR(seconds(std::nullopt, name), 1, 0.01) << name << ": two frames";
+  }
+}
+
+TEST_F(AnimationTest, LeavesNothingWhenStoppedOnItsWay) {
+  struct Stopped {};
+  for (const int last : {1, 3, 4}) {
+    int frames = 0;
+    const auto stop = [&] {
+      if (++frames == last) throw Stopped{};
+    };
+    EXPECT_THROW(animate(picture_, {1, stop}, folder_.path() / "stopped.mp4"), Stopped);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.path().filename().string().find("stopped"), std::string::npos) << entry.path();
+  }
+}
+
 TEST_F(AnimationTest, TheSameSeriesGivesTheSameBytes) {
-  animate(picture_, 1, folder_.path() / "a.webm");
-  animate(picture_, 1, folder_.path() / "b.webm");
+  animate(picture_, {1, {}}, folder_.path() / "a.webm");
+  animate(picture_, {1, {}}, folder_.path() / "b.webm");
   EXPECT_EQ(content(folder_.path() / "a.webm"), content(folder_.path() / "b.webm"));
 }
 
 TEST_F(AnimationTest, AnotherKindOfFileOrNoFfmpegIsAnErrorAndLeavesNoFile) {
-  EXPECT_THROW(animate(picture_, 1, folder_.path() / "heat.gif"), InputError);
+  EXPECT_THROW(animate(picture_, {1, {}}, folder_.path() / "heat.gif"), InputError);
   const std::string path = std::getenv("PATH");
   const auto only = folder_.path() / "bin";
   std::filesystem::create_directory(only);
   std::filesystem::create_symlink("/usr/bin/Xvfb", only / "Xvfb");
   ::setenv("PATH", only.c_str(), 1);
   try {
-    animate(picture_, 1, folder_.path() / "heat.webm");
+    animate(picture_, {1, {}}, folder_.path() / "heat.webm");
     ADD_FAILURE();
   } catch (const RunError& error) {
     EXPECT_THAT(error.what(), HasSubstr("apt-get install ffmpeg"));

@@ -21,7 +21,8 @@ struct Outcome {
 
 Outcome scree(const std::string& arguments) {
   const auto log = fresh_directory("command") / "log";
-  const int status = std::system((std::string(SCREE_PROGRAM) + " " + arguments + " > " + log.string() + " 2>&1").c_str());
+  const int status =
+      std::system(("{ " + std::string(SCREE_PROGRAM) + " " + arguments + "; } > " + log.string() + " 2>&1").c_str());
   return {WEXITSTATUS(status), contents(log)};
 }
 
@@ -144,9 +145,25 @@ TEST(Command, DrawsARunWithoutAScreen) {
   const auto said = [&](const std::string& option) { return scree("render " + directory.string() + " " + option).text; };
   EXPECT_NE(said("--time 3599").find("nearest to 3599, at 3600 s"), std::string::npos) << said("--time 3599");
   EXPECT_NE(said("--series settle").find("There is heat, contacts"), std::string::npos) << said("--series settle");
-  for (const char* wrong : {"--view 1 1 1 0 0 0", "--picture picture.jpg", "--picture /nowhere/picture.png"}) {
+  for (const char* wrong : {"--view 1 1 1 0 0 0", "--picture picture.jpg", "--picture /nowhere/picture.png", "--time \"-1 s\"",
+                            "--animation a.webm --picture a.png", "--animation a.webm --duration \"0 s\"",
+                            "--animation a.webm --duration \"2 h\""}) {
     EXPECT_EQ(scree("render " + directory.string() + " " + wrong).status, 2) << wrong;
   }
+}
+
+TEST(Command, LeavesNoPartOfAnAnimationThatIsStopped) {
+  const auto directory = fresh_directory("filmed");
+  ASSERT_EQ(scree("run " + scene("bars_and_joint") + " --quiet --set heat.until=\"10 min\" --set output.every=\"5 s\" --out " +
+                  directory.string())
+                .status,
+            0);
+  const std::string part = (directory / ".part-heat.mp4").string();
+  const Outcome outcome = scree("render " + directory.string() + " --animation " + (directory / "heat.mp4").string() +
+                                " & film=$!; for i in $(seq 3000); do [ -e " + part +
+                                " ] && break; sleep 0.01; done; kill -TERM $film; wait $film");
+  EXPECT_EQ(outcome.status, 130) << outcome.text;
+  for (const char* name : {".part-heat.mp4", "heat.mp4"}) EXPECT_FALSE(std::filesystem::exists(directory / name)) << name;
 }
 
 }  // namespace

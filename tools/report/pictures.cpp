@@ -15,8 +15,6 @@ namespace scree::report {
 
 namespace {
 
-constexpr double animation_seconds = 8;
-
 // A folder for the pictures until they are in the page.
 class Workshop {
  public:
@@ -85,7 +83,7 @@ Drawn moving(const Workshop& workshop, output::Picture picture, const std::strin
   picture.width = 840;
   picture.height = 490;
   const auto webm = workshop.file("animation.webm");
-  output::animate(picture, animation_seconds, webm);
+  output::animate(picture, {}, webm);
   return {fmt::format("<video controls loop muted src=\"{}\"></video>", data_url(webm, "video/webm")), caption};
 }
 
