@@ -97,6 +97,28 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
 }
 
+// Stops the command when its second run has begun.
+Outcome interrupted_accuracy(const std::string& scene_name, const std::filesystem::path& directory) {
+  return scree("accuracy " + scene(scene_name) + " --quiet --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --mesh 1 --out " +
+               directory.string() + " & all=$!; for i in $(seq 3000); do [ -e " + (directory / "run_01/log").string() +
+               " ] && break; sleep 0.01; done; kill -TERM $all; wait $all");
+}
+
+TEST(Command, TellsTheErrorsOfTheRunsThatWereDoneWhenInterrupted) {
+  const auto directory = fresh_directory("interrupted_accuracy");
+  const Outcome exact = interrupted_accuracy("slab", directory / "slab");
+  EXPECT_EQ(exact.status, 130) << exact.text;
+  EXPECT_NE(exact.text.find("interrupted after 1 of 3 runs"), std::string::npos) << exact.text;
+  EXPECT_NE(exact.text.find("against the exact solution of the scene"), std::string::npos) << exact.text;
+  const std::string table = contents(directory / "slab/accuracy.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2) << table;
+  const Outcome without = interrupted_accuracy("bars_and_joint", directory / "bars");
+  EXPECT_EQ(without.status, 130) << without.text;
+  EXPECT_NE(without.text.find("errors are not known"), std::string::npos) << without.text;
+  EXPECT_EQ(without.text.find("reference"), std::string::npos) << without.text;
+  EXPECT_TRUE(std::filesystem::exists(directory / "bars/accuracy.csv"));
+}
+
 TEST(Command, EstimatesTheSpaceErrorWhenAskedTo) {
   const auto directory = fresh_directory("space_error");
   for (const std::string size : {"0.02", "0.01"}) {

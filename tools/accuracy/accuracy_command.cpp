@@ -1,7 +1,10 @@
 #include "tools/accuracy/accuracy_command.h"
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +16,7 @@
 #include "tools/accuracy/analysis.h"
 #include "tools/accuracy/report.h"
 #include "tools/run/child_process.h"
+#include "tools/run/interrupt.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/read_scene.h"
 
@@ -61,13 +65,32 @@ void read_summary(const RunFiles& files, Measured& measured) {
   }
 }
 
+// Throws run::Interrupted when Ctrl-C or SIGTERM has come and ended the run.
+run::ChildEnd wait_for(run::ChildProcess process) {
+  constexpr auto pause = std::chrono::milliseconds(5);
+  std::optional<run::ChildEnd> end;
+  try {
+    while (!(end = process.poll())) {
+      run::check_interrupt();
+      std::this_thread::sleep_for(pause);
+    }
+  } catch (const run::Interrupted&) {
+    process.interrupt();
+    process.wait();
+    throw;
+  }
+  constexpr int by_signal = 128;
+  if (end->exit_status > by_signal) run::check_interrupt();
+  return *end;
+}
+
 class Study {
  public:
   Study(const Arguments& arguments, const Scene& scene, fs::path directory)
       : arguments_(arguments), scene_(scene), directory_(std::move(directory)) {}
 
   // Every run starts from the packing of the first, if the blocks fall.
-  Measured make(const Rung& rung, std::size_t number) {
+  [[nodiscard]] Measured make(const Rung& rung, std::size_t number) const {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
     const RunFiles first{run_directory(0)};
@@ -79,7 +102,7 @@ class Study {
     for (const auto& overrides : {arguments_.overrides, overrides_of(scene_, rung)}) {
       for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
     }
-    const run::ChildEnd child = run::ChildProcess(words, files.directory / "log").wait();
+    const run::ChildEnd child = wait_for(run::ChildProcess(words, files.directory / "log"));
     Measured measured;
     measured.rung = rung;
     measured.exit_status = child.exit_status;
@@ -96,18 +119,58 @@ class Study {
   fs::path directory_;
 };
 
+// The runs of the ladder; only the first of them if Ctrl-C or SIGTERM has come.
+std::vector<Measured> make_all(const Study& study, const std::vector<Rung>& ladder, Progress& progress) {
+  run::catch_interrupts();
+  progress.start("accuracy", fmt::format("{} runs", ladder.size()));
+  std::vector<Measured> runs;
+  try {
+    for (const Rung& rung : ladder) {
+      run::check_interrupt();
+      runs.push_back(study.make(rung, runs.size()));
+      progress.update(static_cast<double>(runs.size()) / static_cast<double>(ladder.size()),
+                      fmt::format("run {} of {}", runs.size(), ladder.size()));
+    }
+  } catch (const run::Interrupted&) {
+    return runs;
+  }
+  progress.finish("done");
+  return runs;
+}
+
 // Errors of all runs against the exact solution that the scene names, or of all but the finest against that one; says against
-// which. A run that went wrong in time (status 1) has temperatures all the same, and its error is worth knowing.
+// which, or nothing if there is neither. A run that went wrong in time (status 1) has temperatures all the same, and its error
+// is worth knowing.
 std::string compare_all(const Study& study, std::size_t finest_run, std::vector<Measured>& runs) {
   const auto probes = [&](std::size_t i) { return output::read_probe_history(RunFiles{study.run_directory(i)}.probes()); };
-  const ProbeHistory best = probes(finest_run);
-  const bool exact = !best.exact.empty();
+  const bool has_finest = finest_run < runs.size();
+  const ProbeHistory best = has_finest ? probes(finest_run) : ProbeHistory{};
+  bool exact = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].steps == 0 || (!exact && i == finest_run)) continue;
-    const ProbeHistory history = i == finest_run ? best : probes(i);
-    compare(history, exact ? exact_of(history) : reference_from(best), runs[i]);
+    if (runs[i].steps == 0) continue;
+    const ProbeHistory history = probes(i);
+    exact = exact || !history.exact.empty();
+    if (exact) {
+      compare(history, exact_of(history), runs[i]);
+    } else if (has_finest && i != finest_run) {
+      compare(history, reference_from(best), runs[i]);
+    }
   }
-  return exact ? std::string("the exact solution of the scene") : fmt::format("run {}, the finest", finest_run);
+  if (exact) return "the exact solution of the scene";
+  return has_finest ? fmt::format("run {}, the finest", finest_run) : "";
+}
+
+// What there is of the table and the picture.
+void conclude(const Study& study, const fs::path& directory, std::size_t finest_run, std::vector<Measured>& runs) {
+  const fs::path csv = directory / "accuracy.csv";
+  const fs::path picture = directory / "accuracy.png";
+  const std::string reference = compare_all(study, finest_run, runs);
+  mark_front(runs);
+  write_text(csv, to_csv(runs));
+  fmt::print("{}", to_text(runs, observed_orders(runs), reference));
+  if (draw(runs, csv, picture)) return;
+  fs::remove(picture);
+  if (!reference.empty()) fmt::print("no run has an error above 0, so there is nothing to draw on logarithmic axes\n");
 }
 
 }  // namespace
@@ -145,25 +208,16 @@ int run(const Arguments& arguments) {
   fs::create_directories(directory);
 
   Progress progress(progress_mode(arguments.quiet));
-  progress.start("accuracy", fmt::format("{} runs", ladder.size()));
-  Study study(arguments, scene, directory);
-  std::vector<Measured> runs;
-  for (const Rung& rung : ladder) {
-    runs.push_back(study.make(rung, runs.size()));
-    progress.update(static_cast<double>(runs.size()) / static_cast<double>(ladder.size()),
-                    fmt::format("run {} of {}", runs.size(), ladder.size()));
-  }
-  progress.finish("done");
+  const Study study(arguments, scene, directory);
+  std::vector<Measured> runs = make_all(study, ladder, progress);
   const std::size_t finest_run = finest(ladder);
-  if (runs[finest_run].steps == 0) {
+  if (finest_run < runs.size() && runs[finest_run].steps == 0) {
     throw RunError(fmt::format("the finest run has failed; see {}", (study.run_directory(finest_run) / "log").string()));
   }
-  const std::string reference = compare_all(study, finest_run, runs);
-  mark_front(runs);
-  write_text(directory / "accuracy.csv", to_csv(runs));
-  fmt::print("{}", to_text(runs, observed_orders(runs), reference));
-  if (!draw(runs, directory / "accuracy.csv", directory / "accuracy.png")) {
-    fmt::print("no run has an error above 0, so there is nothing to draw on logarithmic axes\n");
+  if (!runs.empty()) conclude(study, directory, finest_run, runs);
+  if (runs.size() < ladder.size()) {
+    fmt::print(stderr, "scree: interrupted after {} of {} runs\n", runs.size(), ladder.size());
+    return 130;
   }
   const bool all_ran = std::all_of(runs.begin(), runs.end(), [](const Measured& run) { return run.steps > 0; });
   return all_ran ? 0 : 1;

@@ -57,7 +57,8 @@ std::string to_csv(const std::vector<Measured>& runs) {
 }
 
 std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>& orders, const std::string& reference) {
-  std::string text = fmt::format("errors against {}\n", reference);
+  std::string text = reference.empty() ? "errors are not known: the finest run, which would tell them, was not made\n"
+                                       : fmt::format("errors against {}\n", reference);
   text += fmt::format("{:>6} {:>10} {:>15} {:>12} {:>7} {:>9} {:>7} {:>9} {:>11} {:>11} {:>11}\n", "mesh", "tolerance",
                       "integrator", "contacts", "blocks", "nodes", "steps", "wall s", "time err K", "lump err K", "max err K");
   for (const Measured& run : runs) {
@@ -65,7 +66,9 @@ std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>&
                         run.rung.mesh_factor, run.rung.tolerance, run.rung.integrator, word(run.rung.contact_model),
                         word(run.rung.block_model), run.nodes, run.steps, run.wall_seconds, run.time_error,
                         run.lumping_error > 0 ? fmt::format("{:.3g}", run.lumping_error) : "-",
-                        run.max_error ? fmt::format("{:.3g}", *run.max_error) : "reference",
+                        run.max_error                         ? fmt::format("{:.3g}", *run.max_error)
+                        : run.steps > 0 && !reference.empty() ? "reference"
+                                                              : "-",
                         run.exit_status != 0 ? fmt::format("exit {}", run.exit_status)
                         : run.on_front       ? "*"
                                              : "");

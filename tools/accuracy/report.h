@@ -11,7 +11,7 @@ namespace scree::accuracy {
 
 std::string to_csv(const std::vector<Measured>& runs);
 
-// `reference` says against what the errors are.
+// `reference` says against what the errors are; empty: there is nothing.
 std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>& orders, const std::string& reference);
 
 // Draws error against time and against unknowns from the table of the runs, by gnuplot; false if no error is above 0, for the
