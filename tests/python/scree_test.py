@@ -93,7 +93,7 @@ class Scenes(unittest.TestCase):
             base.changed({"settle": None, "packing": pathlib.Path("none.h5")})
 
     def test_a_text_stays_the_text_that_it_is(self):
-        for text in ("a: b", "yes", "1e3", "[1, 2]", "null", "say \"no\""):
+        for text in ("a: b", "yes", "1e3", "[1, 2]", "null", "Haufen \u03bb \U0001f600", "say \"no\""):
             self.assertEqual(scree.Scene.from_text(STONES, {"title": text}).title, text)
 
     def test_it_says_what_is_in_it(self):
@@ -243,12 +243,32 @@ class Heatings(unittest.TestCase):
         # The trapezoidal rule over ten seconds.
         self.assertAlmostEqual((stored() - heat) / (5 * (flow + into_stones())), 1, delta=1e-3)
 
-    def test_a_packing_of_other_bodies_is_refused(self):
-        packing = scree.settle(scree.Scene.from_text(CUBE))
-        with self.assertRaisesRegex(scree.InputError, "packing is of another scene .it holds 1 bodies, the scene 2"):
-            scree.Heating(scree.Scene.from_text(STONES), packing)
-        with self.assertRaisesRegex(scree.InputError, "its body 1 is called cube, the scene's block"):
-            scree.Heating(scree.Scene.from_text(CUBE.replace("cube", "block")), packing)
+    def test_the_packing_of_another_scene_is_refused(self):
+        base = scree.Scene.from_text(STONES)
+        packing = scree.settle(base)
+        scree.Heating(base.changed({"materials.ore.conductivity": 9, "heat.until": "1 h"}), packing)
+        for change in [{"bodies.stone.mesh_size": 0.05}, {"settle.seed": 1}, {"materials.ore.density": 2600}]:
+            with self.assertRaisesRegex(scree.InputError, "packing is of another scene"):
+                scree.Heating(base.changed(change), packing)
+        with tempfile.TemporaryDirectory() as folder:
+            packing.save(f"{folder}/p.h5")
+            loaded = scree.load_packing(f"{folder}/p.h5")
+        with self.assertRaisesRegex(scree.InputError, "its body 2 is called stone, the scene's pebble"):
+            scree.Heating(scree.Scene.from_text(STONES.replace("stone:", "pebble:")), loaded)
+
+    def test_a_packing_from_a_file_takes_the_materials_of_the_scene(self):
+        metal = STONES.replace("materials: {", "materials: {metal: {density: 2500, conductivity: 300, specific_heat: 1, "
+                                               "friction: 0.5}, ")
+        scene = scree.Scene.from_text(metal.replace("material: ore\n    mesh", "material: metal\n    mesh"))
+        other = scree.settle(scree.Scene.from_text(STONES))
+        with tempfile.TemporaryDirectory() as folder:
+            other.save(f"{folder}/p.h5")
+            loaded = scree.load_packing(f"{folder}/p.h5")
+        heating = scree.Heating(scene, loaded)
+        heating.advance_to(60)
+        slower = scree.Heating(scree.Scene.from_text(STONES), other)
+        slower.advance_to(60)
+        self.assertGreater(heating.probes["top"], slower.probes["top"] + 10)
 
     def test_another_dimension_is_refused(self):
         with self.assertRaisesRegex(ValueError, "dimension"):

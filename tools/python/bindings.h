@@ -31,6 +31,7 @@ struct PlacedPacking {
 };
 struct AnyPacking {
   std::variant<PlacedPacking<2>, PlacedPacking<3>> packing;
+  std::string fall_key{};  // of the scene it was settled from; empty: it is from a file
 };
 
 // Gmsh and Bullet keep lengths for the whole process: only one thread at a time may mesh and settle. To be called without

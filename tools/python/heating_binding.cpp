@@ -7,6 +7,7 @@
 #include "tools/library/heating.h"
 #include "tools/python/bindings.h"
 #include "tools/python/views.h"
+#include "tools/run/keys.h"
 
 namespace scree::python {
 
@@ -28,10 +29,23 @@ struct AnyHeating {
   }
 };
 
+// A pile that was settled here is of its scene alone, as the packing in a run's folder; one from a file is whoever's names it.
+void check_origin(const Scene& scene, const AnyPacking& packing) {
+  if (packing.fall_key.empty() || packing.fall_key == run::fall_key(scene)) return;
+  Problem problem;
+  problem.where.file = scene.file.string();
+  problem.key = "packing";
+  problem.value = "of another scene";
+  problem.rule = "bodies, settle and what is mechanical in materials must be those it was settled with";
+  problem.suggestion = "Settle this scene, or save the packing and load it";
+  throw InputError(problem);
+}
+
 template <int dim>
 std::unique_ptr<Heating<dim>> start(const Scene& scene, const AnyPacking& packing) {
   const auto* fitting = std::get_if<PlacedPacking<dim>>(&packing.packing);
   if (fitting == nullptr) throw py::value_error("the packing has another dimension than the scene");
+  check_origin(scene, packing);
   return std::make_unique<Heating<dim>>(scene, fitting->packing);
 }
 
@@ -135,7 +149,8 @@ py::dict contacts(const py::object& self) {
 void bind_heating(py::module_& module) {
   py::class_<AnyHeating>(module, "Heating", "A packing that is heated, in memory.")
       .def(py::init(&heat), py::arg("scene"), py::arg("packing"),
-           "Finds the contacts and assembles the balance of heat. A steady scene is solved here.")
+           "Finds the contacts and assembles the balance of heat. A steady scene is solved here. Raises InputError for a "
+           "packing that was settled from other bodies, and for one from a file whose bodies have other names.")
       .def("advance_to", &advance, py::arg("time"), "Goes on to this time [s].")
       .def("follow", &follow,
            "Goes on to the scene's end; gives the probes at its output times, as a dict of arrays with 'time' [s].")

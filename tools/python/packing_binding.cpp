@@ -3,6 +3,7 @@
 #include "tools/library/make_packing.h"
 #include "tools/python/bindings.h"
 #include "tools/python/views.h"
+#include "tools/run/keys.h"
 
 namespace scree::python {
 
@@ -11,17 +12,18 @@ namespace py = pybind11;
 namespace {
 
 template <int dim>
-AnyPacking with_places(packing::Packing<dim> packing) {
+AnyPacking with_places(packing::Packing<dim> packing, std::string fall_key = {}) {
   auto placed = packing::placed_mesh(packing);
-  return {PlacedPacking<dim>{std::move(packing), std::move(placed)}};
+  return {PlacedPacking<dim>{std::move(packing), std::move(placed)}, std::move(fall_key)};
 }
 
 AnyPacking made(const Scene& scene) {
   const py::gil_scoped_release others_may_run;
   const auto lock = alone();
   const auto progress = [](double) { check_signals(); };
-  if (scene.dimension == 2) return with_places(make_packing<2>(scene, progress));
-  return with_places(make_packing<3>(scene, progress));
+  std::string key = scene.packing ? "" : run::fall_key(scene);
+  if (scene.dimension == 2) return with_places(make_packing<2>(scene, progress), std::move(key));
+  return with_places(make_packing<3>(scene, progress), std::move(key));
 }
 
 py::object settle(const SceneSource& source) {

@@ -20,8 +20,8 @@ py::object plain(const py::object& value) {
 
 // A Python value as a scene file would have it. JSON is YAML: a text stays the text it is.
 std::string as_yaml(const py::handle& value) {
-  using namespace py::literals;
-  return py::module_::import("json").attr("dumps")(value, "default"_a = py::cpp_function(&plain)).cast<std::string>();
+  const py::object dumps = py::module_::import("json").attr("dumps");
+  return dumps(value, py::arg("ensure_ascii") = false, py::arg("default") = py::cpp_function(&plain)).cast<std::string>();
 }
 
 std::vector<std::string> overrides_of(const py::dict& changes) {
