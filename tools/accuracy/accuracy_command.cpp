@@ -134,7 +134,7 @@ std::vector<Measured> make_all(const Study& study, const std::vector<Rung>& ladd
   } catch (const run::Interrupted&) {
     return runs;
   }
-  progress.finish("done");
+  progress.finish("");
   return runs;
 }
 

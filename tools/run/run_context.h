@@ -28,7 +28,7 @@ struct RunContext {
     const StageClock clock(name);
     auto result = work();
     costs.push_back(clock.read());
-    progress.finish("done");
+    progress.finish("");
     return result;
   }
 };
