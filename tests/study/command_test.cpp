@@ -1,11 +1,8 @@
 // `scree study` as a user meets it, on a block that falls onto a hot plate.
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <set>
 #include <sstream>
 #include <thread>
 
@@ -14,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/output/probe_history.h"
+#include "tests/study/one_study.h"
 #include "tests/study/study_text.h"
-#include "tools/study/table.h"
 
 namespace scree::test {
 namespace {
@@ -23,52 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Each;
 using testing::HasSubstr;
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-struct Ended {
-  int status = 0;
-  std::string text;  // of standard output and standard error
-};
-
-Ended shell(const std::string& command, const fs::path& folder) {
-  const fs::path log = folder / "said";
-  const int status = std::system((command + " > " + log.string() + " 2>&1").c_str());
-  return {WEXITSTATUS(status), contents(log)};
-}
-
-// A study in a folder of its own, and what to do with it.
-struct OneStudy {
-  explicit OneStudy(const std::string& text) : file(study_file(falling_scene, text)), out(file.parent_path() / "out") {}
-
-  [[nodiscard]] std::string command(const std::string& options) const {
-    return std::string(SCREE_PROGRAM) + " study " + file.string() + " --quiet --threads 1 --out " + out.string() + " " +
-           options;
-  }
-  [[nodiscard]] Ended run(const std::string& options = "") const { return shell(command(options), file.parent_path()); }
-  [[nodiscard]] study::Table table() const { return study::read_table(out / "table.h5"); }
-  [[nodiscard]] nlohmann::json summary(std::size_t row) const {
-    return nlohmann::json::parse(contents(out / table().find("directory")->texts[row] / "summary.json"));
-  }
-
-  fs::path file;
-  fs::path out;
-};
-
-const std::string two_by_two = R"(
-scene: scene.yaml
-vary: [{key: contact.stiffness_factor, values: [1, 100]}]
-ensemble: {key: settle.seed, members: 2}
-report:
-  - heat.probes.top.temperature
-  - {column: warm, probe: top, reaches: 350 K}
-  - settle.top
-)";
 
 bool settled_here(const nlohmann::json& summary) {
   return !summary["settle"]["reused"].get<bool>();
@@ -137,7 +88,7 @@ TEST(StudyCommand, GoesOnWhereItWasKilled) {
 
 // Long enough that nobody ends it by accident.
 std::string slow_study() {
-  return two_by_two + "set: [heat.until=40 h]\n";
+  return std::string(two_by_two) + "set: [heat.until=40 h]\n";
 }
 
 // Starts the study in the background, and goes on with `next` when its first run is under way.
@@ -280,26 +231,6 @@ TEST(StudyCommand, KeepsThePackingAndTheTimeOfARunThatAKilledStudyHasLeftBehind)
   int settled = 0;
   for (std::size_t i = 0; i < 4; ++i) settled += settled_here(study.summary(i)) ? 1 : 0;
   EXPECT_EQ(settled, 2) << "once per seed";
-}
-
-TEST(StudyCommand, WritesAScriptForGnuParallelThatMakesAndGathersItsRuns) {
-  if (std::system("command -v parallel > /dev/null") != 0)
-    GTEST_SKIP() << "GNU parallel is not there: apt-get install parallel";
-  const OneStudy study(two_by_two);
-  const std::string script = (study.file.parent_path() / "runs.sh").string();
-  ASSERT_EQ(study.run("--parallel " + script).status, 0);
-  const Ended ended = shell(script + " --jobs 2", study.file.parent_path());
-  EXPECT_EQ(ended.status, 0) << ended.text;
-  EXPECT_THAT(ended.text, HasSubstr("complete: " + study.out.string()));
-  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
-}
-
-TEST(StudyCommand, WritesNoScriptThatGnuParallelWouldChange) {
-  const OneStudy study(two_by_two);
-  const Ended ended = shell(fmt::format("{} study {} --parallel runs.sh --out 'out {{.}}'", SCREE_PROGRAM, study.file.string()),
-                            study.file.parent_path());
-  EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.text, HasSubstr("must name no file with { in it"));
 }
 
 TEST(StudyCommand, TellsAProgramHowFarItIsAndHowItEnded) {

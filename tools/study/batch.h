@@ -14,7 +14,7 @@ struct Batch {
   std::optional<int> threads;  // of each task; nothing: one
 };
 
-// A job array for `sbatch`, a task per run.
+// A job array for `sbatch`, a task per run. Throws InputError for a name that sbatch cannot take.
 std::string slurm_script(const Batch& batch);
 
 // A shell script that makes the runs by GNU parallel and gathers them. Throws InputError for a name that it would change.
