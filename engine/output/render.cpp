@@ -82,7 +82,7 @@ std::vector<SeriesEntry> thinned(const std::vector<SeriesEntry>& entries, double
 }
 
 double rate_of(std::size_t frames, const Film& film) {
-  const double count = static_cast<double>(frames);
+  const auto count = static_cast<double>(frames);
   const double wanted = film.duration ? count / *film.duration : std::max(count / usual_duration, fewest_per_second);
   return std::min(wanted, most_per_second);
 }
