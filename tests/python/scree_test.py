@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import types
 import unittest
 
 import numpy
@@ -79,6 +80,7 @@ class Scenes(unittest.TestCase):
         self.assertIn("gravity: [0, 0, -1.6]", other.effective)
         self.assertEqual(other.title, "moon")
         self.assertEqual(base.title, "")
+        self.assertEqual(base.changed(types.MappingProxyType({"title": "moon"})).title, "moon")
         self.assertNotIn("settle", base.changed({"settle": None}).effective)
 
     def test_changes_take_the_numbers_of_numpy_and_paths(self):

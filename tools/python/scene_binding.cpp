@@ -24,9 +24,11 @@ std::string as_yaml(const py::handle& value) {
   return dumps(value, py::arg("ensure_ascii") = false, py::arg("default") = py::cpp_function(&plain)).cast<std::string>();
 }
 
-std::vector<std::string> overrides_of(const py::dict& changes) {
+// Of any mapping.
+std::vector<std::string> overrides_of(const py::object& changes) {
   std::vector<std::string> overrides;
-  for (const auto& [key, value] : changes) overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), as_yaml(value)));
+  for (const auto& [key, value] : py::dict(changes))
+    overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), as_yaml(value)));
   return overrides;
 }
 
@@ -36,7 +38,7 @@ SceneSource read(SceneSource source) {
   return source;
 }
 
-SceneSource changed(const SceneSource& source, const py::dict& changes) {
+SceneSource changed(const SceneSource& source, const py::object& changes) {
   SceneSource other = source;
   for (std::string& assignment : overrides_of(changes)) other.overrides.push_back(std::move(assignment));
   return read(std::move(other));
@@ -63,14 +65,14 @@ std::string file_name(const py::object& path) {
 void bind_scene(py::module_& module) {
   py::class_<SceneSource>(module, "Scene",
                           "A scene, checked. It never changes: `changed` gives another. `scree keys` prints every key.")
-      .def(py::init([](const py::object& file, const py::dict& changes) {
+      .def(py::init([](const py::object& file, const py::object& changes) {
              return read({file_name(file), "", overrides_of(changes), {}});
            }),
            py::arg("file"), py::arg("changes") = py::dict(),
            "Reads a scene file, with changes such as {'heat.until': '2 h', 'contact.stiffness_factor': 100}.")
       .def_static(
           "from_text",
-          [](const std::string& text, const py::dict& changes, const py::object& folder) {
+          [](const std::string& text, const py::object& changes, const py::object& folder) {
             return read({file_name(folder), text, overrides_of(changes), {}});
           },
           py::arg("text"), py::arg("changes") = py::dict(), py::arg("folder") = ".",
