@@ -73,13 +73,13 @@ void Series::write(const Grid& grid, const Frame& frame) {
   append(frame, encoded(grid), {});
 }
 
-void Series::append(const Frame& frame, const EncodedGrid& grid, std::string_view shared_cells) {
+void Series::append(const Frame& frame, const EncodedGrid& grid, const EncodedArrays& shared_cells) {
   SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
   SeriesEntry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
   const fs::path file = directory_ / entry.file;
   encode(frame.points, point_arrays_);
   encode(frame.cells, cell_arrays_);
-  write_vtu(file, grid, point_arrays_, cell_arrays_, shared_cells, frame.time);
+  write_vtu(file, {grid, point_arrays_, cell_arrays_, shared_cells, frame.time});
   entries_.push_back(std::move(entry));
   try {
     write_index(index_, entries_);

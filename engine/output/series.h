@@ -7,11 +7,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/output/series_index.h"
-#include "engine/output/vtu_text.h"
+#include "engine/output/vtu_file.h"
 
 namespace scree::output {
 
@@ -43,10 +42,10 @@ class Series {
   std::string name_;
   std::vector<SeriesEntry> entries_;
   EncodedGrid shared_grid_;
-  std::string shared_cells_;
-  std::string point_arrays_, cell_arrays_;  // of the frame that is written; they keep their memory for the next
+  EncodedArrays shared_cells_;
+  EncodedArrays point_arrays_, cell_arrays_;  // of the frame that is written; they keep their memory for the next
 
-  void append(const Frame& frame, const EncodedGrid& grid, std::string_view shared_cells);
+  void append(const Frame& frame, const EncodedGrid& grid, const EncodedArrays& shared_cells);
 };
 
 }  // namespace scree::output
