@@ -17,20 +17,24 @@ namespace scree::mesh {
 
 namespace {
 
-// Of the square of its longest edge; a triangle below it is flat.
-constexpr double flat = 1e-10;
-
 std::string place(const Eigen::Vector3d& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x(), p.y(), p.z());
 }
 
-void check_triangles(const BodySpec& body, const RawMesh& raw) {
-  for (const auto& cell : raw.triangles) {
+// Those that have two corners at one place, as programs write them that round coordinates: the triangles beside them meet at
+// what is left of them, an edge.
+void drop_collapsed(RawMesh& raw) {
+  std::erase_if(raw.triangles, [](const auto& cell) {
     const auto& [a, b, c] = cell.nodes;
-    const Eigen::Vector3d u = raw.points[b] - raw.points[a], v = raw.points[c] - raw.points[a];
-    const double longest_sq = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-    if (u.cross(v).norm() > flat * longest_sq) continue;
-    throw file_error(body, fmt::format("triangle {} is flat, near {}", cell.number, place(raw.points[a])),
+    return a == b || b == c || c == a;
+  });
+}
+
+// Those that lie along an edge are gone by now (surface_refinement.h).
+void check_flat(const BodySpec& body, const ClosedSurface& surface) {
+  for (const auto& [a, b, c] : surface.triangles) {
+    if (!is_flat(surface.points[a], surface.points[b], surface.points[c])) continue;
+    throw file_error(body, fmt::format("a triangle is flat, near {}", place(surface.points[a])),
                      "Repair the surface, for instance with Meshlab");
   }
 }
@@ -102,6 +106,7 @@ double expected_elements(const ClosedSurface& shell, double mesh_size) {
 SimplexMesh<3> fill(const BodySpec& body, const ClosedSurface& shell) {
   expect_reasonable(body, expected_elements(shell, body.mesh_size));
   const ClosedSurface surface = refined(shell, 1.4 * body.mesh_size);
+  check_flat(body, surface);
   std::vector<std::size_t> tags(surface.points.size()), corners;
   std::iota(tags.begin(), tags.end(), std::size_t{1});
   std::vector<double> coordinates;
@@ -157,8 +162,8 @@ void check_hollows(const BodySpec& body, const Parts<3>& parts) {
 
 }  // namespace
 
-Parts<3> fill_surface(const BodySpec& body, const RawMesh& raw) {
-  check_triangles(body, raw);
+Parts<3> fill_surface(const BodySpec& body, RawMesh raw) {
+  drop_collapsed(raw);
   DisjointSets joined = connect(body, raw);
   Parts<3> parts;
   try {

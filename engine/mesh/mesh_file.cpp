@@ -107,7 +107,7 @@ Parts<dim> mesh_file(const BodySpec& body, const MeshReaders& readers) {
   if constexpr (dim == 2) {
     expect_in_plane(body, raw);
   } else if (raw.tetrahedra.empty()) {
-    return fill_surface(body, raw);
+    return fill_surface(body, std::move(raw));
   }
   return checked_volume<dim>(body, raw);
 }

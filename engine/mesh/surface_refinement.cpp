@@ -26,6 +26,15 @@ constexpr double flat = 1e-6;
 // The other diagonal must be better by this much, so that rounding never turns one back.
 constexpr double better = 1e-3;
 
+// A thickness that is rounding.
+constexpr double no_area = 1e-10;
+
+// Twice the area over the square of the longest edge.
+double thickness(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const Eigen::Vector3d u = b - a, v = c - a;
+  return u.cross(v).norm() / std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
+}
+
 double cotangent(const Eigen::Vector3d& at, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a - at).dot(b - at) / (a - at).cross(b - at).norm();
 }
@@ -41,7 +50,9 @@ bool wants_other_diagonal(const Eigen::Vector3d& a, const Eigen::Vector3d& b, co
   const auto side = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& point) {
     return (to - from).cross(point - from).dot(across);
   };
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+  const bool along_edge = thickness(a, b, c) <= flat || thickness(a, b, d) <= flat;
+  const bool parted = along_edge || side(a, b, c) * side(a, b, d) < 0;
+  return parted && side(c, d, a) * side(c, d, b) < 0;
 }
 
 class Refiner {
@@ -153,6 +164,10 @@ class Refiner {
 };
 
 }  // namespace
+
+bool is_flat(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return thickness(a, b, c) <= no_area;
+}
 
 ClosedSurface refined(ClosedSurface surface, double longest) {
   return Refiner(std::move(surface), longest).run();

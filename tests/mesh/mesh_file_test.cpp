@@ -1,8 +1,11 @@
 #include "engine/mesh/mesh_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/mesh/body_builders.h"
@@ -184,11 +187,59 @@ TEST_F(MeshFiles, ASurfaceThatCutsItselfIsRefused) {
   EXPECT_THAT(refusal("cut.msh", msh_text(points, cube_triangles())), StartsWith("(Gmsh could not mesh its inside"));
 }
 
-TEST_F(MeshFiles, AFlatTriangleIsRefused) {
-  Points points = both(cube_points(), {{0.5, 0, 0}});
-  auto triangles = both(cube_triangles(), {{Kind::triangle, {1, 9, 2}}});
-  EXPECT_EQ(refusal("flat.msh", msh_text(points, triangles)),
-            "(triangle 13 is flat, near (0, 0, 0) m). Repair the surface, for instance with Meshlab");
+// The unit cube with a node on the edge between its first two, which the triangle on one side or those on both sides do not
+// know of: they end at triangles without area.
+std::string cube_with_seams(std::size_t seams, double beside = 0) {
+  Points points = cube_points();
+  std::vector<FileCell> triangles;
+  std::size_t seen = 0;
+  for (const FileCell& cell : cube_triangles()) {
+    auto nodes = cell.nodes;
+    const auto first = std::find(nodes.begin(), nodes.end(), 1), second = std::find(nodes.begin(), nodes.end(), 2);
+    if (first == nodes.end() || second == nodes.end() || ++seen > seams) {
+      triangles.push_back(cell);
+      continue;
+    }
+    points.push_back({0.3 * static_cast<double>(seen), beside, beside});
+    const int middle = static_cast<int>(points.size());
+    triangles.push_back({Kind::triangle, {1, middle, 2}});
+    for (const auto end : {first, second}) {
+      auto half = nodes;
+      half[static_cast<std::size_t>(end - nodes.begin())] = middle;
+      triangles.push_back({Kind::triangle, half});
+    }
+  }
+  return msh_text(points, triangles);
+}
+
+TEST_F(MeshFiles, ATriangleAlongAnEdgeLeavesTheShapeAsItIs) {
+  for (const double beside : {0.0, 1e-8, -1e-8, 3e-7, -3e-7}) {  // single precision
+    const auto mesh = make_blocks<3>({body_with("seam.msh", cube_with_seams(1, beside), 0.3)});
+    EXPECT_NEAR(total_volume(mesh), 1, 1e-13 + std::abs(beside));
+    EXPECT_NEAR(mean_edge(mesh), 0.3, 0.1);
+  }
+}
+
+TEST_F(MeshFiles, TrianglesAlongOneEdgeOnBothSidesAreRefused) {
+  EXPECT_EQ(refusal("seams.msh", cube_with_seams(2)),
+            "(a triangle is flat, near (0, 0, 0) m). Repair the surface, for instance with Meshlab");
+}
+
+TEST_F(MeshFiles, ATriangleWithTwoCornersAtOnePlaceIsLeftOut) {
+  const Points points = cube_points();
+  std::string text = "solid cube\n";
+  const auto add = [&](const std::array<int, 3>& nodes) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int node : nodes) {
+      const auto& p = points[static_cast<std::size_t>(node - 1)];
+      text += fmt::format("vertex {} {} {}\n", p[0], p[1], p[2]);
+    }
+    text += "endloop\nendfacet\n";
+  };
+  for (const FileCell& cell : cube_triangles()) add({cell.nodes[0], cell.nodes[1], cell.nodes[2]});
+  add({1, 2, 2});
+  const auto mesh = make_blocks<3>({body_with("collapsed.stl", text + "endsolid cube\n", 0.3)});
+  EXPECT_NEAR(total_volume(mesh), 1, 1e-12);
 }
 
 TEST_F(MeshFiles, AnInvertedElementIsNamed) {
