@@ -151,9 +151,13 @@ bool reaches_into(const SimplexMesh<3>& inner, const SimplexMesh<3>& outer) {
 
 void check_hollows(const BodySpec& body, const Parts<3>& parts) {
   const auto& shells = parts.meshes;
+  std::vector<Eigen::AlignedBox3d> boxes(shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    for (const Point<3>& node : shells[i].nodes) boxes[i].extend(node);
+  }
   for (std::size_t outer = 0; outer < shells.size(); ++outer) {
     for (std::size_t inner = 0; inner < shells.size(); ++inner) {
-      if (inner == outer || !reaches_into(shells[inner], shells[outer])) continue;
+      if (inner == outer || !boxes[outer].intersects(boxes[inner]) || !reaches_into(shells[inner], shells[outer])) continue;
       throw file_error(body, fmt::format("shell {} lies inside shell {}", inner + 1, outer + 1),
                        "Give a hollow body as a volume mesh (.msh or .vtu with tetrahedra)");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -44,16 +45,54 @@ void simplex_faces(const std::vector<std::size_t>& face, const Visit& visit) {
   }
 }
 
-// A face of a surface is an outer face of the mesh, or there is none of these nodes.
+// Where the nodes of a file are in its parts.
+struct Places {
+  std::vector<std::size_t> part, node;  // of each; `not_there` if no part has it
+
+  // The face in its part's own numbers, if one part has all of it.
+  template <std::size_t size>
+  bool move(std::array<std::size_t, size>& face) const {
+    const std::size_t its = part[face[0]];
+    if (its == not_there) return false;
+    for (std::size_t& at : face) {
+      if (part[at] != its) return false;
+      at = node[at];
+    }
+    return true;
+  }
+};
+
 template <int dim>
-void name_faces(const RawMesh& raw, const std::vector<std::size_t>& place, SimplexMesh<dim>& mesh) {
-  const std::vector<OuterFace<dim>> outer = outer_faces(mesh);
+Places place_nodes(const RawMesh& raw, const std::vector<std::vector<std::size_t>>& sets,
+                   std::vector<SimplexMesh<dim>>& parts) {
+  const auto& cells = element_cells<dim>(raw);
+  Places places{std::vector<std::size_t>(raw.points.size(), not_there), std::vector<std::size_t>(raw.points.size(), not_there)};
+  for (std::size_t p = 0; p < sets.size(); ++p) {
+    for (const std::size_t e : sets[p]) {
+      for (const std::size_t node : cells[e].nodes) places.part[node] = p;
+    }
+  }
+  for (std::size_t i = 0; i < raw.points.size(); ++i) {
+    if (places.part[i] == not_there) continue;
+    auto& nodes = parts[places.part[i]].nodes;
+    places.node[i] = nodes.size();
+    nodes.push_back(raw.points[i].template head<dim>());
+  }
+  return places;
+}
+
+// A face of a surface is an outer face of a part, or there is none of these nodes.
+template <int dim>
+void name_faces(const RawMesh& raw, const Places& places, std::vector<SimplexMesh<dim>>& parts) {
+  std::vector<std::vector<OuterFace<dim>>> outer;
+  for (const SimplexMesh<dim>& part : parts) outer.push_back(outer_faces(part));
   for (std::size_t surface = 0; surface < raw.surfaces.size(); ++surface) {
     for (const std::vector<std::size_t>& face : raw.surfaces[surface].faces) {
       simplex_faces<dim>(face, [&](OuterFace<dim> nodes) {
-        for (std::size_t& node : nodes) node = place[node];
+        const std::size_t part = places.part[nodes[0]];
+        if (!places.move(nodes)) return;
         std::sort(nodes.begin(), nodes.end());
-        if (std::binary_search(outer.begin(), outer.end(), nodes)) mesh.named.push_back({nodes, surface});
+        if (std::binary_search(outer[part].begin(), outer[part].end(), nodes)) parts[part].named.push_back({nodes, surface});
       });
     }
   }
@@ -125,39 +164,32 @@ std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh) {
 }
 
 template <int dim>
-SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen) {
+std::vector<SimplexMesh<dim>> parts_of(const RawMesh& raw, const std::vector<std::vector<std::size_t>>& sets) {
   const auto& cells = element_cells<dim>(raw);
-  std::vector<std::size_t> place(raw.points.size(), not_there);
-  for (const std::size_t e : chosen) {
-    for (const std::size_t node : cells[e].nodes) place[node] = 0;
+  std::vector<SimplexMesh<dim>> parts(sets.size());
+  const Places places = place_nodes<dim>(raw, sets, parts);
+  for (std::size_t p = 0; p < sets.size(); ++p) {
+    parts[p].elements.reserve(sets[p].size());
+    for (const std::size_t e : sets[p]) {
+      auto nodes = cells[e].nodes;
+      for (std::size_t& node : nodes) node = places.node[node];
+      parts[p].elements.push_back(nodes);
+    }
   }
-  SimplexMesh<dim> mesh;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] == not_there) continue;
-    place[i] = mesh.nodes.size();
-    mesh.nodes.push_back(raw.points[i].template head<dim>());
-  }
-  mesh.elements.reserve(chosen.size());
-  for (const std::size_t e : chosen) {
-    auto nodes = cells[e].nodes;
-    for (std::size_t& node : nodes) node = place[node];
-    mesh.elements.push_back(nodes);
-  }
-  mesh.cells.reserve(raw.cells.size());
   for (RawLargeCell cell : raw.cells) {
-    if (place[cell.nodes[0]] == not_there) continue;
-    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) cell.nodes[i] = place[cell.nodes[i]];
-    mesh.cells.push_back(cell);
+    const std::size_t part = places.part[cell.nodes[0]];
+    for (std::size_t i = 0; i < corner_count(cell.kind); ++i) cell.nodes[i] = places.node[cell.nodes[i]];
+    parts[part].cells.push_back(cell);
   }
-  if (!raw.surfaces.empty()) name_faces(raw, place, mesh);
-  return mesh;
+  if (!raw.surfaces.empty()) name_faces<dim>(raw, places, parts);
+  return parts;
 }
 
 template <int dim>
 SimplexMesh<dim> whole_of(const RawMesh& raw) {
   std::vector<std::size_t> all(element_cells<dim>(raw).size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return part_of<dim>(raw, all);
+  return std::move(parts_of<dim>(raw, {all}).front());
 }
 
 template double signed_volume<2>(const std::array<Point<2>, 3>&);
@@ -166,8 +198,8 @@ template double worst_quality<2>(const SimplexMesh<2>&);
 template double worst_quality<3>(const SimplexMesh<3>&);
 template std::vector<OuterFace<2>> outer_faces<2>(const SimplexMesh<2>&);
 template std::vector<OuterFace<3>> outer_faces<3>(const SimplexMesh<3>&);
-template SimplexMesh<2> part_of<2>(const RawMesh&, const std::vector<std::size_t>&);
-template SimplexMesh<3> part_of<3>(const RawMesh&, const std::vector<std::size_t>&);
+template std::vector<SimplexMesh<2>> parts_of<2>(const RawMesh&, const std::vector<std::vector<std::size_t>>&);
+template std::vector<SimplexMesh<3>> parts_of<3>(const RawMesh&, const std::vector<std::vector<std::size_t>>&);
 template SimplexMesh<2> whole_of<2>(const RawMesh&);
 template SimplexMesh<3> whole_of<3>(const RawMesh&);
 

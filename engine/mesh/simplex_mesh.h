@@ -52,9 +52,10 @@ double worst_quality(const SimplexMesh<dim>& mesh);
 template <int dim>
 std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh);
 
-// The elements `chosen` of `raw` and the nodes they use, both in the order of `raw`, with the faces on its surfaces.
+// A mesh of each set of elements of `raw` and the nodes they use, both in the order of `raw`, with the faces on its surfaces.
+// The sets have no node in common and all elements between them.
 template <int dim>
-SimplexMesh<dim> part_of(const RawMesh& raw, const std::vector<std::size_t>& chosen);
+std::vector<SimplexMesh<dim>> parts_of(const RawMesh& raw, const std::vector<std::vector<std::size_t>>& sets);
 
 // All elements of `raw`.
 template <int dim>

@@ -114,9 +114,7 @@ Parts<dim> checked_volume(const BodySpec& body, const RawMesh& raw) {
     for (const std::size_t node : cell.nodes) joined.join(node, cell.nodes[0]);
   }
   Parts<dim> parts;
-  for (const auto& part : joined.groups(cells, [&](std::size_t e) { return cells[e].nodes[0]; })) {
-    parts.meshes.push_back(part_of<dim>(raw, part));
-  }
+  parts.meshes = parts_of<dim>(raw, joined.groups(cells, [&](std::size_t e) { return cells[e].nodes[0]; }));
   for (const RawSurface& surface : raw.surfaces) parts.surfaces.push_back(surface.name);
   return parts;
 }

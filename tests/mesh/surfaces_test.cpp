@@ -137,6 +137,39 @@ TEST_F(SurfacesOfFiles, PhysicalGroupsAreTheSurfacesOfAMeshFile) {
   EXPECT_NEAR(area_of(plate, BodyId{0}, "7"), 1, 1e-13);
 }
 
+// Tetrahedra apart, numbered corner by corner through all of them, whose lowest faces are one surface. A surface may name what
+// is no face of the mesh, and a face between two parts is none.
+RawMesh loose_tetrahedra(std::size_t count) {
+  const std::array<Eigen::Vector3d, 4> corners{Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  RawMesh raw;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    for (std::size_t i = 0; i < count; ++i) {
+      raw.point_numbers.push_back(raw.points.size());
+      raw.points.emplace_back(corners[corner] + Eigen::Vector3d(2 * static_cast<double>(i), 0, 0));
+    }
+  }
+  raw.surfaces.push_back({"ground", 2, {{0, count, 2 * count + 1}}});
+  for (std::size_t i = count; i-- > 0;) {
+    raw.tetrahedra.push_back({i, {i, count + i, 2 * count + i, 3 * count + i}});
+    raw.surfaces[0].faces.push_back({count + i, i, 2 * count + i});
+  }
+  return raw;
+}
+
+TEST_F(SurfacesOfFiles, ASurfaceReachesAcrossLooseParts) {
+  const std::size_t count = 300;
+  const MeshReaders readers{{".vtu", [](const auto&) { return loose_tetrahedra(count); }}};
+  const auto mesh = make_blocks<3>({body_with("parts.vtu", "read by the reader")}, readers);
+  ASSERT_EQ(mesh.blocks.size(), count);
+  EXPECT_EQ(mesh.surfaces.size(), count);
+  EXPECT_NEAR(area_of(mesh, BodyId{0}, "ground"), 0.5 * count, 1e-11);
+  // Blocks in the order of the elements, their nodes in that of the file.
+  for (const BlockId block : mesh.blocks.ids()) {
+    const Point<3>& first = mesh.nodes[*mesh.blocks[block].nodes.begin()];
+    EXPECT_EQ(first.x(), 2.0 * static_cast<double>(count - 1 - block.value()));
+  }
+}
+
 TEST(Surfaces, OneThatIsNotThereIsNotFound) {
   const auto mesh = make_blocks<3>({body_of(Sphere{1}, 1), body_of(box_of(1, 1, 1), 1)});
   EXPECT_FALSE(find_surface(mesh, BodyId{0}, "x_low"));
