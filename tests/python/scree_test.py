@@ -6,6 +6,7 @@ Usage: scree_test.py SOURCE_FOLDER CPP_EXAMPLE, with the module's folder in PYTH
 import ast
 import gc
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -97,6 +98,21 @@ class Scenes(unittest.TestCase):
     def test_a_text_stays_the_text_that_it_is(self):
         for text in ("a: b", "yes", "1e3", "[1, 2]", "null", "Haufen \u03bb \U0001f600", "say \"no\""):
             self.assertEqual(scree.Scene.from_text(STONES, {"title": text}).title, text)
+
+    def test_it_is_read_again_where_it_was_when_the_program_has_gone_elsewhere(self):
+        start = os.getcwd()
+        table = STONES.replace("temperature: 400", "temperature: {table: oven.csv}")
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                os.chdir(folder)
+                pathlib.Path("s.yaml").write_text(table)
+                pathlib.Path("oven.csv").write_text("time [h],temperature [K]\n0,300\n9,400\n")
+                bases = [scree.Scene("s.yaml"), scree.Scene.from_text(table)]
+                os.chdir(start)
+                for base in bases:
+                    self.assertEqual(base.changed({"title": "elsewhere"}).title, "elsewhere")
+        finally:
+            os.chdir(start)
 
     def test_it_says_what_is_in_it(self):
         scene = scree.Scene(SMALL_PILE)

@@ -17,7 +17,7 @@ namespace scree::python {
 
 // A scene and what it was read from, so that it can be read again with changes.
 struct SceneSource {
-  std::string file;  // or the folder that paths in the text are relative to
+  std::string file;  // absolute; or the folder that paths in the text are relative to
   std::string text;  // empty: of a file
   std::vector<std::string> overrides;
   Scene scene;

@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "tools/python/bindings.h"
@@ -56,6 +58,11 @@ std::vector<std::string> probe_names(const SceneSource& source) {
   return names;
 }
 
+// `changed` reads the file again, wherever the program has gone meanwhile.
+std::string absolute_name(const py::object& path) {
+  return std::filesystem::absolute(file_name(path)).string();
+}
+
 }  // namespace
 
 std::string file_name(const py::object& path) {
@@ -66,14 +73,14 @@ void bind_scene(py::module_& module) {
   py::class_<SceneSource>(module, "Scene",
                           "A scene, checked. It never changes: `changed` gives another. `scree keys` prints every key.")
       .def(py::init([](const py::object& file, const py::object& changes) {
-             return read({file_name(file), "", overrides_of(changes), {}});
+             return read({absolute_name(file), "", overrides_of(changes), {}});
            }),
            py::arg("file"), py::arg("changes") = py::dict(),
            "Reads a scene file, with changes such as {'heat.until': '2 h', 'contact.stiffness_factor': 100}.")
       .def_static(
           "from_text",
           [](const std::string& text, const py::object& changes, const py::object& folder) {
-            return read({file_name(folder), text, overrides_of(changes), {}});
+            return read({absolute_name(folder), text, overrides_of(changes), {}});
           },
           py::arg("text"), py::arg("changes") = py::dict(), py::arg("folder") = ".",
           "A scene from its YAML text; paths in it are relative to the folder.")
