@@ -133,6 +133,21 @@ TEST(ReadStudy, NamesTheKeyThatWasProbablyMeant) {
               HasSubstr("s.yaml:1:8: scene is scne.yaml (must be a scene file that exists)"));
 }
 
+TEST(ReadStudy, RefusesAChangeThatTakesAwayAnEarlierOne) {
+  const auto with = [](const std::string& set) {
+    return wrong_with("scene: scene.yaml\nset:\n" + set +
+                      "vary: [{key: contact.stiffness_factor, values: [1, 2]}]\nreport: [blocks]\n");
+  };
+  EXPECT_EQ(
+      with("  - heat.until=2 h\n  - heat.until=3 h\n"),
+      "s.yaml:4:5: set[1] is heat.until=3 h (must not give another value to heat.until=2 h, which is set before). Take one "
+      "of the two out");
+  EXPECT_THAT(with("  - heat.boundaries[0].temperature=390\n  - heat.boundaries.0.temperature=380\n"),
+              HasSubstr("s.yaml:4:5: set[1] is heat.boundaries.0.temperature=380"));
+  EXPECT_THAT(with("  - settle.limit=4 s\n  - \"settle={seed: 1}\"\n"), HasSubstr("must not take away settle.limit=4 s"));
+  EXPECT_EQ(with("  - \"settle={seed: 1}\"\n  - settle.limit=4 s\n"), "accepted");
+}
+
 TEST(ReadStudy, RefusesRangesThatGoNowhere) {
   const auto with = [](const std::string& key, const std::string& range) {
     return wrong_with("scene: scene.yaml\nvary: [{key: " + key + ", range: {" + range + "}}]\nreport: [blocks]\n");

@@ -34,4 +34,19 @@ std::vector<Problem> overlaps(const std::vector<GivenKey>& varied, const std::ve
   return problems;
 }
 
+std::vector<Problem> repeated(const std::vector<GivenKey>& set) {
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!set[i].path.holds(set[j].path)) continue;
+      const bool same = set[j].path.holds(set[i].path);
+      problems.push_back(
+          {set[i].where, fmt::format("set[{}]", i), set[i].text,
+           fmt::format("must not {} {}, which is set before", same ? "give another value to" : "take away", set[j].text),
+           "Take one of the two out"});
+    }
+  }
+  return problems;
+}
+
 }  // namespace scree::study

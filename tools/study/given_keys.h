@@ -20,4 +20,7 @@ struct GivenKey {
 // another, nor hold one of `set`.
 std::vector<Problem> overlaps(const std::vector<GivenKey>& varied, const std::vector<GivenKey>& set);
 
+// Changes of `set` that take away what one before them has set, in the order of the study.
+std::vector<Problem> repeated(const std::vector<GivenKey>& set);
+
 }  // namespace scree::study

@@ -188,6 +188,7 @@ class Reader {
     }
     refuse_too_many(study, root);
     for (Problem& problem : overlaps(varied_, set_)) problems_.push_back(std::move(problem));
+    for (Problem& problem : repeated(set_)) problems_.push_back(std::move(problem));
     std::set<std::string> names{"run",    "point",        "directory",         "status",
                                 "reason", "wall_seconds", "peak_memory_bytes", "columns"};
     for (const GivenKey& key : varied_) names.insert(key.text);
