@@ -148,6 +148,17 @@ TEST(ReadStudy, RefusesAChangeThatTakesAwayAnEarlierOne) {
   EXPECT_EQ(with("  - \"settle={seed: 1}\"\n  - settle.limit=4 s\n"), "accepted");
 }
 
+TEST(ReadStudy, RefusesAValueThatMakesTheRunOfAnother) {
+  const auto with = [](const std::string& values) {
+    return wrong_with("scene: scene.yaml\nvary:\n  - {key: settle.local_damping, values: [" + values +
+                      "]}\n  - {key: heat.until, values: [1 h, 2 h]}\nreport: [blocks]\n");
+  };
+  EXPECT_EQ(with("\"null\", 0.5"), "accepted");
+  EXPECT_EQ(
+      with("\"null\", 0.5, 0"),
+      "s.yaml:3:55: settle.local_damping is 0 (must make another run than null, which means the same here). Take one out");
+}
+
 TEST(ReadStudy, RefusesRangesThatGoNowhere) {
   const auto with = [](const std::string& key, const std::string& range) {
     return wrong_with("scene: scene.yaml\nvary: [{key: " + key + ", range: {" + range + "}}]\nreport: [blocks]\n");

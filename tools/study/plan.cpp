@@ -1,6 +1,7 @@
 #include "tools/study/plan.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -107,11 +108,20 @@ void check_reports(const Study& study, const Scene& scene, Complaints& complaint
   }
 }
 
+// Two values that give the same run, such as a default and null: it would stand in the table twice and count double.
+Problem same_run(const Study& study, const Point& first, const Point& again) {
+  std::size_t i = 0;
+  while (again.levels[i].text == first.levels[i].text) ++i;
+  return {again.levels[i].where, study.varied()[i], again.levels[i].text,
+          fmt::format("must make another run than {}, which means the same here", first.levels[i].text), "Take one out"};
+}
+
 }  // namespace
 
 std::vector<PlannedRun> plan(const Study& study) {
   Complaints complaints(study);
   std::vector<PlannedRun> runs;
+  std::map<std::string, std::size_t> made;  // the first run of each directory
   for (Point& point : points_of(study)) {
     PlannedRun run;
     run.number = static_cast<int>(runs.size()) + 1;
@@ -125,6 +135,10 @@ std::vector<PlannedRun> plan(const Study& study) {
       complaints.add(point, error);
     }
     run.point = std::move(point);
+    if (!run.directory.empty()) {
+      const auto [first, fresh] = made.emplace(run.directory, runs.size());
+      if (!fresh) complaints.add(same_run(study, runs[first->second].point, run.point));
+    }
     runs.push_back(std::move(run));
   }
   complaints.raise();
