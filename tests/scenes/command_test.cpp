@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <set>
 
 #include <sys/wait.h>
@@ -97,10 +98,11 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
 }
 
-// Stops the command when its second run has begun.
-Outcome interrupted_accuracy(const std::string& scene_name, const std::filesystem::path& directory) {
+// Stops the command when a run of it has begun: the second one unless told.
+Outcome interrupted_accuracy(const std::string& scene_name, const std::filesystem::path& directory,
+                             const std::string& run = "run_01") {
   return scree("accuracy " + scene(scene_name) + " --quiet --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --mesh 1 --out " +
-               directory.string() + " & all=$!; for i in $(seq 3000); do [ -e " + (directory / "run_01/log").string() +
+               directory.string() + " & all=$!; for i in $(seq 3000); do [ -e " + (directory / run / "log").string() +
                " ] && break; sleep 0.01; done; kill -TERM $all; wait $all");
 }
 
@@ -117,6 +119,21 @@ TEST(Command, TellsTheErrorsOfTheRunsThatWereDoneWhenInterrupted) {
   EXPECT_NE(without.text.find("errors are not known"), std::string::npos) << without.text;
   EXPECT_EQ(without.text.find("reference"), std::string::npos) << without.text;
   EXPECT_TRUE(std::filesystem::exists(directory / "bars/accuracy.csv"));
+}
+
+TEST(Command, LeavesNoErrorsOfAnEarlierLadderWhenInterruptedInTheFirstRun) {
+  const auto directory = fresh_directory("accuracy_again");
+  for (const char* name : {"accuracy.csv", "accuracy.png"}) std::ofstream(directory / name) << "of an earlier ladder";
+  const Outcome outcome = interrupted_accuracy("slab", directory, "run_00");
+  EXPECT_EQ(outcome.status, 130) << outcome.text;
+  for (const char* name : {"accuracy.csv", "accuracy.png"}) EXPECT_FALSE(std::filesystem::exists(directory / name)) << name;
+}
+
+TEST(Command, LeavesAnEarlierLadderWhereAnotherIsRefused) {
+  const auto directory = fresh_directory("accuracy_refused");
+  std::ofstream(directory / "accuracy.csv") << "of an earlier ladder";
+  EXPECT_EQ(scree("accuracy " + scene("slab") + " --quiet --contact nothing --out " + directory.string()).status, 2);
+  EXPECT_EQ(contents(directory / "accuracy.csv"), "of an earlier ladder");
 }
 
 TEST(Command, EstimatesTheSpaceErrorWhenAskedTo) {

@@ -27,6 +27,9 @@ namespace {
 using run::RunFiles;
 namespace fs = std::filesystem;
 
+constexpr const char* table_name = "accuracy.csv";
+constexpr const char* picture_name = "accuracy.png";
+
 double kelvin_difference(const std::string& text) {
   const auto parsed = parse_quantity(text, quantity::temperature_difference);
   if (const auto* number = std::get_if<double>(&parsed); number != nullptr && *number > 0) return *number;
@@ -93,6 +96,7 @@ class Study {
   [[nodiscard]] Measured make(const Rung& rung, std::size_t number) const {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
+    fs::remove(files.summary());  // of an earlier call; a run that is refused leaves it
     const RunFiles first{run_directory(0)};
     if (number > 0 && scene_.settle && fs::exists(first.packing())) {
       fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);
@@ -162,8 +166,8 @@ std::string compare_all(const Study& study, std::size_t finest_run, std::vector<
 
 // What there is of the table and the picture.
 void conclude(const Study& study, const fs::path& directory, std::size_t finest_run, std::vector<Measured>& runs) {
-  const fs::path csv = directory / "accuracy.csv";
-  const fs::path picture = directory / "accuracy.png";
+  const fs::path csv = directory / table_name;
+  const fs::path picture = directory / picture_name;
   const std::string reference = compare_all(study, finest_run, runs);
   mark_front(runs);
   write_text(csv, to_csv(runs));
@@ -206,6 +210,8 @@ int run(const Arguments& arguments) {
   const fs::path directory = arguments.directory.empty() ? fs::path("out") / (scene.file.stem().string() + "-accuracy")
                                                          : fs::path(arguments.directory);
   fs::create_directories(directory);
+  // Of an earlier call: whoever finds them must not take them for what an interrupted one has found.
+  for (const char* earlier : {table_name, picture_name}) fs::remove(directory / earlier);
 
   Progress progress(progress_mode(arguments.quiet));
   const Study study(arguments, scene, directory);
