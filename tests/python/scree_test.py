@@ -261,6 +261,13 @@ class Heatings(unittest.TestCase):
         # The trapezoidal rule over ten seconds.
         self.assertAlmostEqual((stored() - heat) / (5 * (flow + into_stones())), 1, delta=1e-3)
 
+    def test_a_run_that_is_refused_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = scree.Scene.from_text(STONES, {"heat.boundaries": [{"body": "plate", "surface": "nope", "temperature": 400}]})
+            with self.assertRaisesRegex(scree.InputError, "must be a surface of body plate"):
+                scree.run(scene, f"{folder}/out")
+            self.assertEqual(os.listdir(folder), [])
+
     def test_the_packing_of_another_scene_is_refused(self):
         base = scree.Scene.from_text(STONES)
         packing = scree.settle(base)

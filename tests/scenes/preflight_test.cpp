@@ -1,5 +1,8 @@
 // What a scene's heat asks of its blocks, found before any work is done.
 
+#include <fstream>
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include "engine/mesh/make_blocks.h"
@@ -72,11 +75,47 @@ TEST(Preflight, OfASceneThatSettlesFindsWhatDoesNotDependOnWhereBlocksWillLie) {
 
 TEST(Preflight, ARunRefusesBeforeAnythingFalls) {
   const auto directory = fresh_directory("preflight");
-  const SceneRun run = test::run("small_pile", directory, {"heat.boundaries.0.surface=nope"});
-  EXPECT_EQ(run.exit_status, 2);
-  EXPECT_FALSE(std::filesystem::exists(directory / "settle"));
-  EXPECT_FALSE(std::filesystem::exists(directory / "packing.h5"));
-  EXPECT_THAT(run.summary["reasons"][0].get<std::string>(), HasSubstr("must be a surface of body plate"));
+  EXPECT_THAT(refusal("small_pile", directory, {"heat.boundaries.0.surface=nope"}),
+              HasSubstr("must be a surface of body plate"));
+  EXPECT_TRUE(std::filesystem::is_empty(directory));
+}
+
+// Each of them is found at another stage: in the mesher, in the packing, at the probes, at the joints, in the steady state.
+TEST(Preflight, NothingIsLeftOfARunThatIsRefused) {
+  const auto folder = fresh_directory("nothing_left");
+  std::ofstream(folder / "open.stl") << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                                        "vertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
+  std::ofstream(folder / "broken.h5") << "no packing";
+  std::ofstream(folder / "scene.yaml") << still;
+  const std::vector<std::vector<std::string>> cases = {
+      {"bodies.cube.box=null", "bodies.cube.mesh={file: " + (folder / "open.stl").string() + "}"},
+      {"packing=" + (folder / "broken.h5").string()},
+      {"output.probes={p: [9, 9, 9]}"},
+      {"contact.joints=[{bodies: [cube, cube], conductance: 5}]"},
+      {"heat.effective_conductivity={low: [5, 5, 5], high: [6, 6, 6]}"},
+      {"heat.boundaries=[]", "heat.steady=true", "heat.until=null", "output.every=null"}};
+  for (const auto& overrides : cases) {
+    EXPECT_NE(refusal_of_file(folder / "scene.yaml", folder / "deep/out", overrides), "accepted") << overrides[0];
+    EXPECT_FALSE(std::filesystem::exists(folder / "deep")) << overrides[0];
+  }
+}
+
+TEST(Preflight, ARunThatIsRefusedLeavesAnEarlierResultAsItIs) {
+  const auto folder = fresh_directory("earlier_left");
+  std::ofstream(folder / "scene.yaml") << still;
+  ASSERT_EQ(run_file(folder / "scene.yaml", folder / "out").exit_status, 0);
+  const auto files = [&] {
+    std::map<std::string, std::string> bytes;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out"))
+      if (entry.is_regular_file()) bytes[entry.path().string()] = contents(entry.path());
+    return bytes;
+  };
+  const auto before = files();
+  EXPECT_NE(refusal_of_file(folder / "scene.yaml", folder / "out", {"output.probes={p: [9, 9, 9]}"}), "accepted");
+  EXPECT_NE(
+      refusal_of_file(folder / "scene.yaml", folder / "out", {"bodies.cube.mesh_size=0.05", "heat.boundaries.0.surface=nope"}),
+      "accepted");
+  EXPECT_EQ(files(), before);
 }
 
 }  // namespace

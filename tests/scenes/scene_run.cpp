@@ -5,12 +5,21 @@
 #include <regex>
 #include <sstream>
 
+#include "engine/base/check.h"
 #include "engine/base/progress.h"
 #include "tests/temp_folder.h"
 #include "tools/run/run_scene.h"
 #include "tools/scene/read_scene.h"
 
 namespace scree::test {
+
+namespace {
+
+std::filesystem::path file_of(const std::string& scene) {
+  return std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / (scene + ".yaml");
+}
+
+}  // namespace
 
 std::filesystem::path fresh_directory(const std::string& name) {
   const auto directory = temp_folder() / name;
@@ -44,7 +53,22 @@ std::map<std::string, std::vector<double>> SceneRun::probes() const {
 }
 
 SceneRun run(const std::string& scene, const std::filesystem::path& directory, const std::vector<std::string>& overrides) {
-  return run_file(std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / (scene + ".yaml"), directory, overrides);
+  return run_file(file_of(scene), directory, overrides);
+}
+
+std::string refusal(const std::string& scene, const std::filesystem::path& directory,
+                    const std::vector<std::string>& overrides) {
+  return refusal_of_file(file_of(scene), directory, overrides);
+}
+
+std::string refusal_of_file(const std::filesystem::path& scene, const std::filesystem::path& directory,
+                            const std::vector<std::string>& overrides) {
+  try {
+    run_file(scene, directory, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
 }
 
 SceneRun run_file(const std::filesystem::path& scene, const std::filesystem::path& directory,

@@ -31,6 +31,12 @@ SceneRun run(const std::string& scene, const std::filesystem::path& directory, c
 SceneRun run_file(const std::filesystem::path& scene, const std::filesystem::path& directory,
                   const std::vector<std::string>& overrides = {});
 
+// What a scene is refused with before any work; "accepted" if it is not.
+std::string refusal(const std::string& scene, const std::filesystem::path& directory,
+                    const std::vector<std::string>& overrides = {});
+std::string refusal_of_file(const std::filesystem::path& scene, const std::filesystem::path& directory,
+                            const std::vector<std::string>& overrides = {});
+
 // The bytes of a file.
 std::string contents(const std::filesystem::path& file);
 

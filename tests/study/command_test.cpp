@@ -147,6 +147,7 @@ report: [heat.time]
   EXPECT_EQ(ended.status, 1) << ended.text;
   const study::Table table = study.table();
   EXPECT_EQ(table.find("status")->texts[0], "bad_input");
+  EXPECT_THAT(table.find("reason")->texts[0], HasSubstr("open.stl"));
   EXPECT_EQ(table.find("status")->texts[1], "failed");
   EXPECT_THAT(table.find("reason")->texts[1], HasSubstr("its packing is that of run 1"));
 }

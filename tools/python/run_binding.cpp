@@ -47,7 +47,8 @@ py::object run(const SceneSource& source, const py::object& out, bool error_esti
 void bind_run(py::module_& module) {
   module.def("run", &run, py::arg("scene"), py::arg("out"), py::arg("error_estimate") = false,
              "What `scree run` does: the whole run with its files in the folder `out`. Gives summary.json as a dict; its "
-             "'status' says how the run ended. Uses the packing that is there if nothing it depends on has changed.");
+             "'status' says how the run ended. Raises InputError for a scene that is refused before any work. Uses the packing "
+             "that is there if nothing it depends on has changed.");
 }
 
 }  // namespace scree::python

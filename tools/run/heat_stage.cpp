@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"
-#include "tools/run/earlier_results.h"
+#include "tools/run/begin_results.h"
+#include "tools/run/packing_stage.h"
 
 namespace scree::run {
 
 namespace {
 
 template <int dim>
-HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim> packing) {
+HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim>& packing) {
   auto pile = placed_pile(context.scene, packing, [&](const std::string& text) { context.progress.note(text); });
-  packing = {};
+  if (!is_placed(context.scene)) packing = {};  // else it is yet to be kept
   context.stage("contacts", fmt::format("{} blocks", pile.mesh.blocks.size()), [&] {
     join(context.scene, pile);
     return true;
@@ -46,15 +48,17 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
   recorder.finish();
 }
 
+// Both call `begin` when nothing can be refused any more, before they write.
 template <int dim>
-void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
+void run_in_time(RunContext& context, const std::function<void()>& begin, HeatOutcome<dim>& outcome) {
   const Scene& scene = context.scene;
   auto state = interrupted_state(context, outcome.pile.key);
   const auto from = state ? std::optional<double>(state->time) : std::nullopt;
   if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
+  thermal::HeatRun run(outcome.model, scene.heat->time, std::move(state));
+  begin();
   HeatRecorder<dim> recorder(scene, context.files, outcome.pile, *outcome.model, from);
   if (context.estimate_space_error) recorder.estimate_space_error();
-  thermal::HeatRun run(outcome.model, scene.heat->time, std::move(state));
   if (!from) recorder.record(run.state());
   march(context, run, recorder);
   outcome.state = run.state();
@@ -63,10 +67,11 @@ void run_in_time(RunContext& context, HeatOutcome<dim>& outcome) {
 
 // One frame, at t = 0.
 template <int dim>
-void find_steady(RunContext& context, HeatOutcome<dim>& outcome) {
+void find_steady(RunContext& context, const std::function<void()>& begin, HeatOutcome<dim>& outcome) {
+  auto steady = thermal::find_steady_state(*outcome.model, context.scene.heat->time.solver);
+  begin();
   HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, *outcome.model, std::nullopt);
   if (context.estimate_space_error) recorder.estimate_space_error();
-  auto steady = thermal::find_steady_state(*outcome.model, context.scene.heat->time.solver);
   outcome.state = std::move(steady.state);
   outcome.solver = std::move(steady.solver);
   recorder.record(outcome.state);
@@ -88,10 +93,9 @@ template <int dim>
 HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) {
   const Scene& scene = context.scene;
   HeatOutcome<dim> outcome;
-  outcome.pile = find_pile(context, std::move(packing));
+  outcome.pile = find_pile(context, packing);
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
                                 [&] { return heat_model(scene, outcome.pile); });
-  remove_earlier(context);
   if (const auto window = effective_window<dim>(scene)) {
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
       return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, *window);
@@ -103,8 +107,13 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
         fmt::format("heat: faces of perfect joints match: {} of {} nodes are one with others, {} temperatures", tied,
                     outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
   }
+  const auto begin = [&] {
+    begin_results(context);
+    keep_placed(context, packing);
+    packing = {};
+  };
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
-    scene.heat->time.steady ? find_steady(context, outcome) : run_in_time(context, outcome);
+    scene.heat->time.steady ? find_steady(context, begin, outcome) : run_in_time(context, begin, outcome);
     return true;
   });
   if (outcome.model->lumped) {

@@ -9,7 +9,7 @@
 #include "engine/output/read_vtu.h"
 #include "engine/output/series.h"
 #include "engine/rigid/settle.h"
-#include "tools/run/earlier_results.h"
+#include "tools/run/begin_results.h"
 #include "tools/run/frames.h"
 #include "tools/run/keys.h"
 #include "tools/run/preflight.h"
@@ -62,17 +62,21 @@ packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   check_clearance(context.scene, blocks);
   check_heat(context.scene, blocks);
-  remove_earlier(context);
   if (packing::stored_key(context.files.packing()) == key) {
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
     return {packing::read<3>(context.files.packing()), true};
   }
+  begin_results(context);
   auto packing =
       context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
   return {std::move(packing), false};
 }
 
 }  // namespace
+
+bool is_placed(const Scene& scene) {
+  return !scene.settle && !scene.packing;
+}
 
 void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies) {
   if (bodies.size() != scene.bodies.size()) {
@@ -136,12 +140,19 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
     outcome = {packing::unmoved<dim>(std::move(blocks)), false};
   }
   outcome.packing.key = key;
-  if (!outcome.reused) packing::write(outcome.packing, context.files.packing());
+  if (context.scene.settle && !outcome.reused) packing::write(outcome.packing, context.files.packing());
   return outcome;
+}
+
+template <int dim>
+void keep_placed(const RunContext& context, const packing::Packing<dim>& packing) {
+  if (is_placed(context.scene)) packing::write(packing, context.files.packing());
 }
 
 template packing::Packing<2> stored_packing<2>(const Scene&);
 template packing::Packing<3> stored_packing<3>(const Scene&);
+template void keep_placed<2>(const RunContext&, const packing::Packing<2>&);
+template void keep_placed<3>(const RunContext&, const packing::Packing<3>&);
 template PackingOutcome<2> packing_stage<2>(RunContext&);
 template PackingOutcome<3> packing_stage<3>(RunContext&);
 

@@ -12,6 +12,9 @@ struct PackingOutcome {
   bool reused = false;  // from an earlier run whose settle stage had the same key
 };
 
+// Whether blocks stay where the scene places them.
+bool is_placed(const Scene& scene);
+
 // The bodies of a packing must be those of the scene, since boundaries and materials speak of them: throws InputError, or gives
 // them the scene's materials.
 void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies);
@@ -22,6 +25,10 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks);
 // The packing file the scene names, with the scene's bodies.
 template <int dim>
 packing::Packing<dim> stored_packing(const Scene& scene);
+
+// Writes the packing of blocks that stay where they are placed; to be called when nothing of the scene can be refused any more.
+template <int dim>
+void keep_placed(const RunContext& context, const packing::Packing<dim>& packing);
 
 template <int dim>
 PackingOutcome<dim> packing_stage(RunContext& context);

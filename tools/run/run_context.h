@@ -19,6 +19,7 @@ struct RunContext {
   Progress& progress;
   bool resume = false;
   bool estimate_space_error = false;
+  bool begun = false;  // the directory holds this run's files (begin_results.h)
   std::vector<StageCost> costs{};
 
   // Runs one stage: shows it, measures it, and returns what it made.

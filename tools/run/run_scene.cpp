@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
 
-#include "engine/base/atomic_file.h"
+#include "tools/run/begin_results.h"
 #include "tools/run/certificate.h"
-#include "tools/run/earlier_results.h"
-#include "tools/run/file_lock.h"
+#include "tools/run/claim.h"
 #include "tools/run/summary.h"
 #include "tools/scene/doctor.h"
 #include "tools/scene/read_scene.h"
@@ -24,30 +22,6 @@ struct Ending {
   int code = 0;
   std::vector<std::string> reasons;  // why the code is not 0
 };
-
-void write_summary(const RunFiles& files, const Json& summary) {
-  write_text(files.summary(), summary.dump(2) + "\n");
-}
-
-// Two runs into one directory would each take the other's files away.
-FileLock claim_directory(const RunFiles& files) {
-  std::error_code error;
-  std::filesystem::create_directories(files.directory, error);
-  if (error)
-    throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
-  auto lock = FileLock::take(files.lock(), FileLock::Kind::exclusive, FileLock::Heirs::none);
-  if (!lock) throw RunError(fmt::format("{}: another run writes there. Choose another --out", files.directory.string()));
-  return std::move(*lock);
-}
-
-// Until the run ends its summary says that it has not.
-Json open_summary(const RunContext& context) {
-  write_text(context.files.scene(), context.scene.effective);
-  Json summary = opening_summary(context.scene, "running");
-  summary["error_estimate"] = context.estimate_space_error;
-  write_summary(context.files, summary);
-  return summary;
-}
 
 // A run that goes on estimates what it did before.
 bool was_estimated(const RunFiles& files) {
@@ -89,7 +63,8 @@ Ending run_stages(RunContext& context, Json& summary) {
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
   if (!scene.heat) {
-    remove_earlier(context);
+    begin_results(context);
+    keep_placed(context, outcome.packing);
     return {"complete", 0, {}};
   }
   const HeatOutcome<dim> heat = heat_stage(context, std::move(outcome.packing));
@@ -99,7 +74,8 @@ Ending run_stages(RunContext& context, Json& summary) {
   return {"complete", 0, {}};
 }
 
-Ending run_to_an_end(RunContext& context, Json& summary) {
+// Throws InputError if the scene is refused before any work.
+Ending run_to_an_end(RunContext& context, Claim& claim, Json& summary) {
   try {
     return context.scene.dimension == 2 ? run_stages<2>(context, summary) : run_stages<3>(context, summary);
   } catch (const Interrupted&) {
@@ -108,7 +84,13 @@ Ending run_to_an_end(RunContext& context, Json& summary) {
         130,
         {fmt::format("interrupted; `scree resume {}` goes on from the last finished time", context.files.directory.string())}};
   } catch (const InputError& error) {
-    return {"bad_input", 2, {located(context.scene, error).what()}};
+    const InputError refusal = located(context.scene, error);
+    if (!context.begun) {
+      claim.undo();
+      context.progress.end({"bad_input", 2, "", {refusal.what()}});
+      throw refusal;
+    }
+    return {"bad_input", 2, {refusal.what()}};
   } catch (const std::exception& error) {
     return {"failed", 1, {error.what()}};
   }
@@ -118,13 +100,14 @@ Ending run_to_an_end(RunContext& context, Json& summary) {
 
 int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
   catch_interrupts();
-  const FileLock lock = claim_directory(files);
+  Claim claim(files);
   say_models(scene, progress);
   const bool resume = start == Start::resume;
   RunContext context{scene, files, progress, resume,
                      space_errors == SpaceErrors::estimated || (resume && was_estimated(files))};
-  Json summary = open_summary(context);
-  const Ending ending = run_to_an_end(context, summary);
+  Json summary = opening_summary(context);
+  const Ending ending = run_to_an_end(context, claim, summary);
+  begin_results(context);
   summary["status"] = ending.status;
   if (!ending.reasons.empty()) summary["reasons"] = ending.reasons;
   add_stages(summary, context.costs);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/version.h"
 #include "thermal/joint_report.h"
 #include "thermal/maximum_principle.h"
@@ -143,13 +144,23 @@ Json effective_json(const thermal::EffectiveConductivity<dim>& effective) {
 
 }  // namespace
 
-Json opening_summary(const Scene& scene, const std::string& status) {
+Json opening_summary(const RunContext& context) {
+  const Scene& scene = context.scene;
   Json models = Json::array();
   for (const Model& model : models_of(scene)) {
     if (model.modelled) models.push_back({{"name", model.name}, {"reason", model.reason}});
   }
-  return {{"status", status},     {"scene", scene.file.string()}, {"scene_hash", scene_hash(scene)},
-          {"version", version()}, {"title", scene.title},         {"models", std::move(models)}};
+  return {{"status", "running"},
+          {"scene", scene.file.string()},
+          {"scene_hash", scene_hash(scene)},
+          {"version", version()},
+          {"title", scene.title},
+          {"models", std::move(models)},
+          {"error_estimate", context.estimate_space_error}};
+}
+
+void write_summary(const RunFiles& files, const Json& summary) {
+  write_text(files.summary(), summary.dump(2) + "\n");
 }
 
 template <int dim>

@@ -14,8 +14,10 @@ namespace scree::run {
 
 using Json = nlohmann::ordered_json;
 
-// What a summary says before anything is known: the status, the program, the scene.
-Json opening_summary(const Scene& scene, const std::string& status);
+// What a summary says before anything is known: that the run goes on, the program, the scene.
+Json opening_summary(const RunContext& context);
+
+void write_summary(const RunFiles& files, const Json& summary);
 
 template <int dim>
 void add_packing(Json& summary, const PackingOutcome<dim>& outcome);

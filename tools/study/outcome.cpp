@@ -68,6 +68,7 @@ Outcome read_outcome(const StudyFiles& files, const std::string& run) {
 
 void write_outcome(const StudyFiles& files, const std::string& run, const run::ChildEnd& end) {
   Json json{{"exit_status", end.exit_status}, {"wall_seconds", end.wall_seconds}, {"peak_memory_bytes", end.peak_memory_bytes}};
+  if (end.exit_status == 2) json["status"] = "bad_input";  // it leaves no summary to say so, if it was refused before its work
   const std::string said = last_line(files.log(run));
   json["reason"] = end.exit_status > 128 && end.exit_status != 130
                        ? fmt::format("ended by signal {}{}{}", end.exit_status - 128, said.empty() ? "" : ": ", said)

@@ -1,14 +1,17 @@
-#include "tools/run/earlier_results.h"
+#include "tools/run/begin_results.h"
 
 #include <fmt/format.h>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 #include "engine/output/series.h"
+#include "tools/run/summary.h"
 
 namespace scree::run {
 
+namespace {
+
 void remove_earlier(const RunContext& context) {
-  if (context.resume) return;
   const RunFiles& files = context.files;
   try {
     for (const char* series : {"heat", "contacts"}) output::remove_series(files.directory, series);
@@ -18,6 +21,16 @@ void remove_earlier(const RunContext& context) {
     throw RunError(
         fmt::format("{}: cannot be removed ({}). Choose another --out", error.path1().string(), error.code().message()));
   }
+}
+
+}  // namespace
+
+void begin_results(RunContext& context) {
+  if (context.begun) return;
+  context.begun = true;
+  if (!context.resume) remove_earlier(context);
+  write_text(context.files.scene(), context.scene.effective);
+  write_summary(context.files, opening_summary(context));
 }
 
 }  // namespace scree::run
