@@ -20,6 +20,7 @@ struct Body {
   MaterialId material;
   bool fixed = false;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // at the start [m/s]
+  std::string made_from = {};                          // in words (made_from.h); empty: not known
 };
 
 // One independent continuum.

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/mesh/arrangement.h"
+#include "engine/mesh/made_from.h"
 #include "engine/mesh/mesh_file.h"
 #include "engine/mesh/problems.h"
 #include "engine/mesh/shape_mesh.h"
@@ -167,7 +168,7 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
     const bool breaks = body.blocks == BlockRule::per_element;
     const Parts<dim> singles = breaks ? broken(whole) : Parts<dim>{};
     const Parts<dim>& pieces = breaks ? singles : whole;
-    const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity});
+    const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity, made_from(body)});
     const std::size_t first_surface = mesh.surface_names.size();
     for (const std::string& name : whole.surfaces) mesh.surface_names.push_back({id, name});
     for (const Pose& pose : poses_of(body, bounds_of(whole), dim)) {

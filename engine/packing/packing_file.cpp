@@ -1,5 +1,6 @@
 // A packing's file: every table as a data set, what describes the file as attributes, and a digest of all of it, since HDF5
 // itself would read a flipped bit back without a word.
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 5;
+constexpr std::int64_t format_version = 6;
+constexpr std::int64_t oldest_version = 5;  // says nothing of what bodies were made from
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -38,7 +40,8 @@ struct Lists {
   std::vector<std::int64_t> elements, blocks, bodies, outcome;  // rows of dim + 1, 7, 2, 1
   std::vector<std::int64_t> cells;                              // rows of kind and 8 nodes, -1 for one it does not have
   std::vector<std::int64_t> surfaces, surface_bodies;           // rows of dim nodes and the surface, 1
-  std::vector<std::string> texts;  // the names of the bodies, of the surfaces, then the criterion, if any
+  std::vector<std::string> texts;      // the names of the bodies, of the surfaces, then the criterion, if any
+  std::vector<std::string> made_from;  // one per body; empty if nobody knows
 };
 
 template <int dim>
@@ -61,8 +64,12 @@ Lists pack(const Packing<dim>& packing) {
   }
   for (const mesh::Body& body : packing.mesh.bodies) {
     lists.texts.push_back(body.name);
+    lists.made_from.push_back(body.made_from);
     lists.bodies.insert(lists.bodies.end(), {body.material.value(), body.fixed ? 1 : 0});
     lists.velocities.insert(lists.velocities.end(), body.velocity.begin(), body.velocity.end());
+  }
+  if (std::all_of(lists.made_from.begin(), lists.made_from.end(), [](const auto& text) { return text.empty(); })) {
+    lists.made_from.clear();
   }
   for (const mesh::NamedSurface& surface : packing.mesh.surface_names) {
     lists.texts.push_back(surface.name);
@@ -125,7 +132,8 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
   for (std::size_t b = 0; 2 * b < lists.bodies.size(); ++b) {
     const std::int64_t material = lists.bodies[2 * b];
     mesh.bodies.push_back({lists.texts.at(b), material < 0 ? MaterialId{} : MaterialId{at(lists.bodies, 2 * b)},
-                           lists.bodies.at(2 * b + 1) != 0, Eigen::Vector3d(&lists.velocities.at(3 * b))});
+                           lists.bodies.at(2 * b + 1) != 0, Eigen::Vector3d(&lists.velocities.at(3 * b)),
+                           lists.made_from.empty() ? "" : lists.made_from.at(b)});
   }
   unpack_surfaces(lists, mesh);
   return mesh;
@@ -168,7 +176,9 @@ std::string digest(const std::string& key, const Lists& lists) {
        {&lists.elements, &lists.blocks, &lists.bodies, &lists.outcome, &lists.cells, &lists.surfaces, &lists.surface_bodies}) {
     add(*list);
   }
-  for (const std::string& text : lists.texts) hasher.add(text);
+  for (const auto* list : {&lists.texts, &lists.made_from}) {
+    for (const std::string& text : *list) hasher.add(text);
+  }
   return hasher.hex();
 }
 
@@ -186,6 +196,7 @@ Lists read_lists(const H5::H5File& in) {
     *list = integers(in, name);
   }
   lists.texts = texts(in, "texts");
+  if (number_attribute(in, "version") > oldest_version) lists.made_from = texts(in, "made_from");
   return lists;
 }
 
@@ -200,14 +211,19 @@ InputError refusal(const std::filesystem::path& file, const std::string& value, 
   return InputError(problem);
 }
 
+bool is_read(std::int64_t version) {
+  return version >= oldest_version && version <= format_version;
+}
+
 // Who wrote it, for which dimension: reason enough to refuse it before anything else is read.
 void check_kind(const H5::H5File& in, const std::filesystem::path& file, int dimension) {
   if (!in.attrExists("format") || text_attribute(in, "format") != format_name) {
     throw refusal(file, "another kind of HDF5 file", "must be a packing", "Give the packing.h5 of a run");
   }
-  if (const std::int64_t version = number_attribute(in, "version"); version != format_version) {
+  if (const std::int64_t version = number_attribute(in, "version"); !is_read(version)) {
     throw refusal(file, fmt::format("of format version {}", version),
-                  fmt::format("this program reads version {}", format_version), "Settle the scene again");
+                  fmt::format("this program reads versions {} and {}", oldest_version, format_version),
+                  "Settle the scene again");
   }
   if (const std::int64_t found = number_attribute(in, "dimension"); found != dimension) {
     throw refusal(file, fmt::format("in {}-D", found), fmt::format("this scene is in {}-D", dimension),
@@ -240,6 +256,7 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put("surfaces", lists.surfaces, dim + 1);
   image.put("surface_bodies", lists.surface_bodies);
   image.put("texts", lists.texts);
+  image.put("made_from", lists.made_from);
   write_text(file, image.bytes());
 }
 
@@ -265,7 +282,7 @@ std::optional<std::string> stored_key(const std::filesystem::path& file) {
   H5::Exception::dontPrint();
   try {
     const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-    if (text_attribute(in, "format") != format_name || number_attribute(in, "version") != format_version) return std::nullopt;
+    if (text_attribute(in, "format") != format_name || !is_read(number_attribute(in, "version"))) return std::nullopt;
     return text_attribute(in, "key");
   } catch (const H5::Exception&) {
     return std::nullopt;

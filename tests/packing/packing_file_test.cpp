@@ -2,6 +2,7 @@
 #include <limits>
 #include <sstream>
 
+#include <H5Cpp.h>
 #include <gmock/gmock.h>
 
 #include "engine/base/check.h"
@@ -26,7 +27,7 @@ template <int dim>
 Packing<dim> awkward_packing() {
   Packing<dim> packing;
   packing.key = "0123456789abcdef";
-  packing.mesh.bodies.push_back({"plate", MaterialId{1}, true, {0, 0, 0}});
+  packing.mesh.bodies.push_back({"plate", MaterialId{1}, true, {0, 0, 0}, "box: (1, 1, 0.1) m\n"});
   packing.mesh.bodies.push_back({"a stone, with more", MaterialId{}, false, {0.1, -1.0 / 3, 5e-324}});
   for (std::size_t block = 0; block < 2; ++block) {
     typename mesh::BlockMesh<dim>::Element element;
@@ -89,6 +90,7 @@ void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
     EXPECT_EQ(a.mesh.bodies[body].material, b.mesh.bodies[body].material);
     EXPECT_EQ(a.mesh.bodies[body].fixed, b.mesh.bodies[body].fixed);
     EXPECT_EQ(a.mesh.bodies[body].velocity, b.mesh.bodies[body].velocity);
+    EXPECT_EQ(a.mesh.bodies[body].made_from, b.mesh.bodies[body].made_from);
   }
   expect_same_surfaces(a.mesh, b.mesh);
 }
@@ -117,6 +119,20 @@ TEST_F(PackingFile, APackingComesBackToTheBit) {
   write(in_plane, file());
   expect_same(in_plane, read<2>(file()));
   EXPECT_FALSE(read<2>(file()).settled);
+}
+
+TEST_F(PackingFile, AFileOfTheVersionBeforeIsReadAndItsBodiesAreMadeFromNobodyKnowsWhat) {
+  auto packing = awkward_packing<3>();
+  for (mesh::Body& body : packing.mesh.bodies) body.made_from.clear();
+  write(packing, file());
+  {
+    H5::H5File older(file().string(), H5F_ACC_RDWR);
+    older.unlink("made_from");
+    const std::int64_t version = 5;
+    older.openAttribute("version").write(H5::PredType::NATIVE_INT64, &version);
+  }
+  expect_same(packing, read<3>(file()));
+  EXPECT_EQ(stored_key(file()), packing.key);
 }
 
 TEST_F(PackingFile, AReportComesBackToTheBit) {

@@ -278,6 +278,8 @@ class Heatings(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             packing.save(f"{folder}/p.h5")
             loaded = scree.load_packing(f"{folder}/p.h5")
+        with self.assertRaisesRegex(scree.InputError, r"bodies.stone.mesh_size is 0.05 m \(must be as in the packing: 0.1 m"):
+            scree.Heating(base.changed({"bodies.stone.mesh_size": 0.05}), loaded)
         with self.assertRaisesRegex(scree.InputError, "its body 2 is called stone, the scene's pebble"):
             scree.Heating(scree.Scene.from_text(STONES.replace("stone:", "pebble:")), loaded)
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "tests/scenes/scene_run.h"
 
@@ -131,6 +131,26 @@ TEST_F(SmallPile, RefusesAStoredPackingWhoseClearanceTheContactsNoLongerReachAcr
   auto nearer = apart;
   nearer.push_back("contact.tolerance=1e-5");
   EXPECT_NE(refusal("small_pile", directory, nearer).find("settle.clearance"), std::string::npos);
+}
+
+TEST_F(SmallPile, IsNotHeatedAsABodyThatItsPackingDoesNotHold) {
+  const std::string packing = "packing=" + (run_->directory / "packing.h5").string();
+  const auto refused = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> overrides{packing, "heat.until=5 min"};
+    overrides.insert(overrides.end(), changes.begin(), changes.end());
+    return refusal("small_pile_reheated", fresh_directory("small_pile_other"), overrides);
+  };
+  EXPECT_THAT(
+      refused({"bodies.cube.box.size=[0.2, 0.2, 0.3]"}),
+      testing::EndsWith("/small_pile_reheated.yaml:17:10: bodies.cube.box is (0.2, 0.2, 0.3) m (must be as in the packing: "
+                        "(0.2, 0.2, 0.2) m). Say what the scene that made the packing says, or settle anew"));
+  for (const char* change : {"bodies.cube.mesh_size=0.06", "bodies.cube.blocks=whole", "bodies.cube.elements=hexahedron",
+                             "bodies.plate.box.centre=[0, 0, -0.05]"}) {
+    EXPECT_NE(refused({change}), "accepted") << change;
+  }
+  EXPECT_NE(refused({"bodies.cube.box=null", "bodies.cube.sphere={diameter: 0.2, centre: [0, 0, 0.12]}"}), "accepted");
+  EXPECT_EQ(refused({"bodies.cube.box.centre=[0, 0, 0.5]", "bodies.cube.mesh_size=50 mm"}), "accepted")
+      << "it has fallen since";
 }
 
 TEST_F(SmallPile, CanStartFromAPackingFile) {

@@ -29,8 +29,7 @@ namespace {
 template <int dim>
 Heating<dim>::Heating(Scene scene, const packing::Packing<dim>& packing) : scene_(std::move(scene)) {
   if (!scene_.heat) refuse(scene_, "heat", "missing", "the scene must say how it is heated", "");
-  auto bodies = packing.mesh.bodies;
-  run::adopt_bodies(scene_, bodies);
+  auto bodies = run::adopted_bodies(scene_, packing);
   pile_ = run::placed_pile(scene_, packing);
   pile_.mesh.bodies = std::move(bodies);
   run::join(scene_, pile_);

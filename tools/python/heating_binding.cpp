@@ -150,7 +150,7 @@ void bind_heating(py::module_& module) {
   py::class_<AnyHeating>(module, "Heating", "A packing that is heated, in memory.")
       .def(py::init(&heat), py::arg("scene"), py::arg("packing"),
            "Finds the contacts and assembles the balance of heat. A steady scene is solved here. Raises InputError for a "
-           "packing that was settled from other bodies, and for one from a file whose bodies have other names.")
+           "packing that was settled from other bodies, and for one from a file whose bodies are others.")
       .def("advance_to", &advance, py::arg("time"), "Goes on to this time [s].")
       .def("follow", &follow,
            "Goes on to the scene's end; gives the probes at its output times, as a dict of arrays with 'time' [s].")

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/mesh/made_from.h"
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
 #include "engine/output/series.h"
@@ -13,6 +14,7 @@
 #include "tools/run/frames.h"
 #include "tools/run/keys.h"
 #include "tools/run/preflight.h"
+#include "tools/scene/read_scene.h"
 
 namespace scree::run {
 
@@ -29,6 +31,17 @@ namespace {
   throw InputError(problem);
 }
 
+// What the scene says of a body otherwise than the packing would go unheard: the packing's blocks are heated.
+void compare_making(const mesh::Body& body, const mesh::BodySpec& spec, mesh::Places places, std::vector<Problem>& problems) {
+  for (const auto& difference : mesh::differences(body.made_from, mesh::made_from(spec), places)) {
+    problems.push_back({{},
+                        fmt::format("bodies.{}.{}", spec.name, difference.key),
+                        difference.second,
+                        fmt::format("must be as in the packing: {}", difference.first),
+                        "Say what the scene that made the packing says, or settle anew"});
+  }
+}
+
 // What is wrong with the file is said at the place where the scene names it.
 template <int dim>
 packing::Packing<dim> read_named(const Scene& scene) {
@@ -42,6 +55,12 @@ packing::Packing<dim> read_named(const Scene& scene) {
     }
     throw InputError(std::move(problems));
   }
+}
+
+void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& bodies) {
+  const bool known = std::none_of(bodies.begin(), bodies.end(), [](const mesh::Body& body) { return body.made_from.empty(); });
+  if (!known)
+    context.progress.note("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
 }
 
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
@@ -78,10 +97,13 @@ bool is_placed(const Scene& scene) {
   return !scene.settle && !scene.packing;
 }
 
-void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies) {
+template <int dim>
+Table<BodyId, mesh::Body> adopted_bodies(const Scene& scene, const packing::Packing<dim>& packing) {
+  Table<BodyId, mesh::Body> bodies = packing.mesh.bodies;
   if (bodies.size() != scene.bodies.size()) {
     refuse_packing(scene, fmt::format("it holds {} bodies, the scene {}", bodies.size(), scene.bodies.size()));
   }
+  std::vector<Problem> problems;
   for (const BodyId id : bodies.ids()) {
     const mesh::BodySpec& spec = scene.bodies[id.index()];
     if (bodies[id].name != spec.name) {
@@ -89,7 +111,11 @@ void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies) {
                      fmt::format("its body {} is called {}, the scene's {}", id.index() + 1, bodies[id].name, spec.name));
     }
     bodies[id].material = spec.material;
+    const bool stays = bodies[id].fixed || !packing.settled;
+    compare_making(bodies[id], spec, stays ? mesh::Places::compared : mesh::Places::left_out, problems);
   }
+  if (!problems.empty()) throw located(scene, InputError(std::move(problems)));
+  return bodies;
 }
 
 // Heat is looked for across gaps of contact.tolerance times the length of an element at a surface: blocks held further apart
@@ -119,7 +145,7 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
 template <int dim>
 packing::Packing<dim> stored_packing(const Scene& scene) {
   auto packing = read_named<dim>(scene);
-  adopt_bodies(scene, packing.mesh.bodies);
+  packing.mesh.bodies = adopted_bodies(scene, packing);
   return packing;
 }
 
@@ -128,6 +154,7 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
   if (context.scene.packing) {
     auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
                                  [&] { return stored_packing<dim>(context.scene); });
+    note_unknown_making(context, packing.mesh.bodies);
     return {std::move(packing), false};
   }
   auto blocks = context.stage("mesh", fmt::format("{} bodies", context.scene.bodies.size()),
@@ -149,6 +176,8 @@ void keep_placed(const RunContext& context, const packing::Packing<dim>& packing
   if (is_placed(context.scene)) packing::write(packing, context.files.packing());
 }
 
+template Table<BodyId, mesh::Body> adopted_bodies<2>(const Scene&, const packing::Packing<2>&);
+template Table<BodyId, mesh::Body> adopted_bodies<3>(const Scene&, const packing::Packing<3>&);
 template packing::Packing<2> stored_packing<2>(const Scene&);
 template packing::Packing<3> stored_packing<3>(const Scene&);
 template void keep_placed<2>(const RunContext&, const packing::Packing<2>&);

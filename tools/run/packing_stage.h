@@ -16,8 +16,9 @@ struct PackingOutcome {
 bool is_placed(const Scene& scene);
 
 // The bodies of a packing must be those of the scene, since boundaries and materials speak of them: throws InputError, or gives
-// them the scene's materials.
-void adopt_bodies(const Scene& scene, Table<BodyId, mesh::Body>& bodies);
+// them the scene's materials. Of a packing that knows what they were made from, they must be made alike.
+template <int dim>
+Table<BodyId, mesh::Body> adopted_bodies(const Scene& scene, const packing::Packing<dim>& packing);
 
 // Throws InputError if blocks would come to rest too far apart for the scene.
 void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks);
