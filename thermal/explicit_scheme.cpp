@@ -47,6 +47,7 @@ class ExplicitScheme : public TimeScheme {
   double first_step(const Instant&, double) override { return std::numeric_limits<double>::infinity(); }
 
   [[nodiscard]] double safety() const override { return 1; }
+  [[nodiscard]] double cost_exponent() const override { return 1; }
   [[nodiscard]] std::string name() const override { return "explicit Euler, eq. (8), fixed steps"; }
 
  private:

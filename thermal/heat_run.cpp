@@ -111,6 +111,7 @@ class HeatRun::Implementation {
   }
 
   [[nodiscard]] const HeatState& state() const { return state_; }
+  [[nodiscard]] double cost_exponent() const { return scheme_.scheme->cost_exponent(); }
   [[nodiscard]] std::string solver() const { return fmt::format("{} ({})", scheme_.scheme->name(), scheme_.why); }
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
@@ -267,6 +268,10 @@ void HeatRun::advance_to(double time, const std::function<void(double)>& progres
 
 const HeatState& HeatRun::state() const {
   return implementation_->state();
+}
+
+double HeatRun::cost_exponent() const {
+  return implementation_->cost_exponent();
 }
 
 std::string HeatRun::solver() const {

@@ -80,6 +80,8 @@ class HeatRun {
 
   [[nodiscard]] const HeatState& state() const;
   [[nodiscard]] std::string solver() const;  // in words, for the summary
+  // How the cost of a step grows with its length (WorkDone).
+  [[nodiscard]] double cost_exponent() const;
   // Whether the time error stayed within the tolerance so far.
   [[nodiscard]] bool within_tolerance() const;
 

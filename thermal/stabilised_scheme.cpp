@@ -149,6 +149,7 @@ class StabilisedScheme : public TimeScheme {
 
   [[nodiscard]] double safety() const override { return 1; }
   [[nodiscard]] Sums sums() const override { return Sums::plain; }
+  [[nodiscard]] double cost_exponent() const override { return 0.5; }
   [[nodiscard]] std::string name() const override {
     return fmt::format("RKL2 (stabilised explicit, second order) with steps from the tolerance; stable Euler step {:.3g} s",
                        stable_);

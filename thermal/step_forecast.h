@@ -15,6 +15,26 @@ struct StepForecast {
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.
 StepForecast forecast_steps(double stable, const TimeOptions& options);
 
+// The part of a run's work that is done by a time, so that what is left can be told from it: after a sudden start most of the
+// steps are far shorter than those at the end, and the part of the time would say for long that nearly all is left to do.
+// Steps grow as for a forecast, from the first one that is seen.
+class WorkDone {
+ public:
+  // What a step costs is taken to grow as this power of its length: 0 for implicit ones, 1/2 for stabilised, 1 for Euler's.
+  WorkDone(const TimeOptions& options, double cost_exponent);
+
+  // After each step, at these times [s].
+  [[nodiscard]] double part(double time);
+
+ private:
+  [[nodiscard]] double work(double time) const;  // in steps of an output interval
+
+  double every_;
+  double until_;
+  double exponent_;
+  double first_ = 0;
+};
+
 // What implicit steps ask of their solver, where the properties are constant and where they are not.
 SolverUse use_of_linear_steps(const StepForecast& forecast);
 SolverUse use_of_newton_steps(const StepForecast& forecast);

@@ -52,6 +52,8 @@ class TimeScheme {
   [[nodiscard]] virtual std::int64_t factorisations() const { return 0; }
   // What its flows need to be summed in.
   [[nodiscard]] virtual Sums sums() const { return Sums::extended; }
+  // What a step costs grows as this power of its length.
+  [[nodiscard]] virtual double cost_exponent() const { return 0; }
   // Of what solves its equations; nothing for a scheme without.
   [[nodiscard]] virtual SolverCost solver_cost() const { return {}; }
   [[nodiscard]] virtual std::string name() const = 0;

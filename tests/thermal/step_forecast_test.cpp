@@ -1,7 +1,9 @@
 #include "thermal/step_forecast.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +65,43 @@ TEST(StepForecast, WhereNothingConductsIsOneStepAnOutput) {
   EXPECT_DOUBLE_EQ(forecast.steps, 10);
   EXPECT_DOUBLE_EQ(forecast.lengths, 1);
   EXPECT_DOUBLE_EQ(forecast.products, 0);
+}
+
+TEST(WorkDone, IsAboutThePartOfTheStepsThatARunHasTakenAndNotThatOfItsTime) {
+  const TimeOptions options = times(4 * 3600, 3600);
+  HeatRun run(suddenly_heated(10), options);
+  WorkDone work(options, run.cost_exponent());
+  std::vector<double> parts, passed;
+  for (int k = 1; k <= 4; ++k) {
+    run.advance_to(k * 3600, [&](double time) {
+      parts.push_back(work.part(time));
+      passed.push_back(time / options.until);
+    });
+  }
+  double of_work = 0, of_time = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const double steps = static_cast<double>(i + 1) / static_cast<double>(parts.size());
+    of_work = std::max(of_work, std::abs(parts[i] - steps));
+    of_time = std::max(of_time, std::abs(passed[i] - steps));
+  }
+  EXPECT_LT(of_work, 0.2);
+  EXPECT_GT(of_time, 0.6);
+  EXPECT_DOUBLE_EQ(parts.back(), 1);
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+}
+
+TEST(WorkDone, OfStabilisedStepsIsThePartOfTheirProducts) {
+  const double stable = 0.5;
+  WorkDone work(times(5000, 1000), 0.5);
+  EXPECT_NEAR(work.part(200),
+              forecast_steps(stable, times(200, 200)).products / forecast_steps(stable, times(5000, 1000)).products, 0.02);
+  EXPECT_NEAR(work.part(3000),
+              forecast_steps(stable, times(3000, 1000)).products / forecast_steps(stable, times(5000, 1000)).products, 0.02);
+}
+
+TEST(WorkDone, OfEqualStepsIsThePartOfTheTime) {
+  WorkDone work(times(5000, 1000), 1);
+  for (const double time : {100.0, 900.0, 1000.0, 1700.0, 5000.0}) EXPECT_NEAR(work.part(time), time / 5000, 1e-12);
 }
 
 }  // namespace

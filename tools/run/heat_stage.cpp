@@ -9,6 +9,7 @@
 #include "contact/find_contacts.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"
+#include "thermal/step_forecast.h"
 #include "tools/run/begin_results.h"
 #include "tools/run/packing_stage.h"
 
@@ -38,10 +39,11 @@ std::optional<thermal::HeatState> interrupted_state(const RunContext& context, c
 template <int dim>
 void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& recorder) {
   const thermal::TimeOptions& options = context.scene.heat->time;
+  thermal::WorkDone work(options, run.cost_exponent());
   while (run.state().time < options.until) {
     run.advance_to(thermal::next_output(options, run.state().time), [&](double time) {
       check_interrupt();
-      context.progress.update(time / options.until, fmt::format("{:.4g} of {:.4g} s", time, options.until));
+      context.progress.update(work.part(time), fmt::format("{:.4g} of {:.4g} s", time, options.until));
     });
     recorder.record(run.state());
   }
