@@ -27,6 +27,9 @@ void keep_to_one_process() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", overwrite);
   setenv("OMPI_MCA_pml", "ob1", overwrite);
   setenv("OMPI_MCA_btl", "self", overwrite);
+  // It would make folders for its processes to find each other, and stop the program where another one that ends takes away the
+  // folder above them just then, as runs of a study do.
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", overwrite);
   // It looks for graphics cards on X displays, too, and a display that closes meanwhile ends the program.
   setenv("HWLOC_COMPONENTS", "-gl", overwrite);
 }
