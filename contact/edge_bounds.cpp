@@ -1,6 +1,6 @@
 #include "contact/edge_bounds.h"
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 
 #include "contact/segment.h"
@@ -34,28 +34,15 @@ LanePoints<3> cross(const LanePoints<3>& a, const LanePoints<3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Lanes root(const Lanes& square) {
-  Lanes root;
-  for (int i = 0; i < lane_count; ++i) root[i] = std::sqrt(square[i]);
-  return root;
+LanePoints<3> columns(const std::array<Lanes, lane_count>& rows) {
+  const auto all = transposed(rows[0], rows[1], rows[2], rows[3]);
+  return {all[0], all[1], all[2]};
 }
 
-// The vertices of element_edges by groups of four; the last two lanes repeat the first edge.
-struct EdgeLanes {
-  LaneMask start, end;
-  std::array<LaneMask, 2> beside;
-};
-constexpr EdgeLanes lanes_of(const std::array<int, 4>& numbers) {
-  const auto lanes = [&](auto vertex) {
-    return LaneMask{vertex(element_edges[numbers[0]]), vertex(element_edges[numbers[1]]), vertex(element_edges[numbers[2]]),
-                    vertex(element_edges[numbers[3]])};
-  };
-  return EdgeLanes{lanes([](const ElementEdge& edge) { return edge.start; }),
-                   lanes([](const ElementEdge& edge) { return edge.end; }),
-                   {lanes([](const ElementEdge& edge) { return edge.beside[0]; }),
-                    lanes([](const ElementEdge& edge) { return edge.beside[1]; })}};
+// Is a place from the start to the end, or not more than `beyond` off?
+LaneMask within(const Lanes& along, const Lanes& end, const Lanes& beyond) {
+  return (along >= -beyond) & (along <= end + beyond);
 }
-constexpr std::array<EdgeLanes, 2> edge_lanes{lanes_of({0, 1, 2, 3}), lanes_of({4, 5, 0, 0})};
 
 // Edges that do not lie further than `distance` above one of the planes as a whole.
 unsigned edges_within(const Heights<3>& heights, float distance) {
@@ -104,84 +91,73 @@ EdgeBounds::EdgeBounds(const Shell<3>& first, const Shell<3>& second, double ind
     : kept_(static_cast<float>(1 - indentation)), moved_(static_cast<float>(indentation / 3)) {
   const Way<3> way(first, second);
   const float unit = 1 / first.radius;
+  const auto rows = [&](const LanePoints<3>& at) { return transposed(unit * at[0], unit * at[1], unit * at[2], Lanes{}); };
+  first_ = rows(first.at);
+  second_ = rows(vertices_from(second, way));
   distance_ = unit * slack(first, second);
   off_ = 2 * unit * way.rounding;
-  second_ = vertices_from(second, way);
-  for (int axis = 0; axis < 3; ++axis) {
-    second_[axis] *= unit;
-    const Lanes at = unit * first.at[axis];
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      // The face beside vertex i has the other one as its third corner.
-      const Lanes start = shuffled(at, edge_lanes[g].start), way_of = shuffled(at, edge_lanes[g].end) - start;
-      groups_[g].starts[axis] = start;
-      groups_[g].ways[axis] = way_of;
-      groups_[g].shifts[0][axis] = moved_ * (way_of + shuffled(at, edge_lanes[g].beside[1]) - start);
-      groups_[g].shifts[1][axis] = moved_ * (way_of + shuffled(at, edge_lanes[g].beside[0]) - start);
-    }
-  }
-  for (Group& group : groups_) {
-    group.squares = dot<3>(group.ways, group.ways);
-    group.lengths = root(group.squares);
-  }
+  // The third corner of the face beside an edge is no further from its start than two radii.
+  aside_ = 2 * moved_ * unit * std::max(first.radius, second.radius);
 }
 
-EdgeBounds::Edge EdgeBounds::edge_of_second(const ElementEdge& edge) const {
-  Edge seen{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Lanes& at = second_[axis];
-    seen.start[axis] = at[edge.start];
-    seen.way[axis] = at[edge.end] - at[edge.start];
-    seen.square += seen.way[axis] * seen.way[axis];
-    for (int i = 0; i < 2; ++i) {
-      seen.shifts[i][axis] = moved_ * (seen.way[axis] + at[edge.beside[1 - i]] - at[edge.start]);
-    }
+EdgeBounds::Crossing EdgeBounds::crossing(const Pairs& pairs) const {
+  std::array<Lanes, lane_count> first_ways, second_ways, starts;
+  for (int i = 0; i < lane_count; ++i) {
+    const ElementEdge &of_first = element_edges[pairs[i].of_first], &of_second = element_edges[pairs[i].of_second];
+    first_ways[i] = first_[of_first.end] - first_[of_first.start];
+    second_ways[i] = second_[of_second.end] - second_[of_second.start];
+    starts[i] = second_[of_second.start] - first_[of_first.start];
   }
-  seen.length = std::sqrt(seen.square);
-  return seen;
-}
-
-EdgeBounds::Touching EdgeBounds::may_touch(unsigned some, const ElementEdge& of_second) const {
-  const Edge edge = edge_of_second(of_second);
-  Touching touching;
-  for (unsigned g = 0; g < groups_.size(); ++g) {
-    const unsigned of_group = some >> lane_count * g & 15u;
-    if (of_group != 0) add(groups_[g], lane_count * g, of_group, edge, touching);
-  }
-  return touching;
+  const LanePoints<3> a = columns(first_ways), b = columns(second_ways), between = columns(starts);
+  const LanePoints<3> normal = cross(a, b);
+  Crossing lines;
+  lines.square = dot<3>(normal, normal);
+  lines.across_first = cross(normal, a);
+  lines.across_second = cross(b, normal);
+  lines.along_first = dot<3>(between, lines.across_second);
+  lines.along_second = -dot<3>(between, lines.across_first);
+  const Lanes a_square = dot<3>(a, a), b_square = dot<3>(b, b), volume = dot<3>(between, normal);
+  const Lanes a_length = root(a_square), b_length = root(b_square), off = off_ * a_length * b_length;
+  lines.off_first = off * b_length;
+  lines.off_second = off * a_length;
+  // Beside the place of the edges that of a semi-edge: its shift from the start times a vector across.
+  const Lanes aside = aside_ * root(lines.square);
+  constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
+  // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
+  const LaneMask near_lines = volume * volume <= 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
+  const LaneMask crossing = lines.square >= least_square * a_square * b_square;
+  lines.near = bits(near_lines & crossing & within(lines.along_first, lines.square, lines.off_first + aside * b_length) &
+                    within(lines.along_second, lines.square, lines.off_second + aside * a_length));
+  return lines;
 }
 
 // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other edge
-// between the ends of both, seen along the normal.
-void EdgeBounds::add(const Group& group, unsigned first_bit, unsigned some, const Edge& edge, Touching& touching) const {
-  const auto& a = group.ways;
-  const LanePoints<3> b{all_lanes(edge.way[0]), all_lanes(edge.way[1]), all_lanes(edge.way[2])};
-  const LanePoints<3> between{edge.start[0] - group.starts[0], edge.start[1] - group.starts[1],
-                              edge.start[2] - group.starts[2]};
-  const LanePoints<3> normal = cross(a, b);
-  const Lanes square = dot<3>(normal, normal), squares = group.squares * edge.square;
-  const Lanes volume = dot<3>(between, normal);
-  constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
-  // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
-  some &= bits((volume * volume <= 1.01F * distance_ * distance_ * square + 101.0F * off_ * off_ * squares) &
-               (square >= least_square * squares));
-  if (some == 0) return;
-  const LanePoints<3> across_a = cross(normal, a), across_b = cross(b, normal);
-  const Lanes between_a = dot<3>(between, across_a), between_b = dot<3>(between, across_b);
-  const Lanes off = off_ * edge.length * group.lengths;
-  const Lanes off_along_a = off * edge.length, off_along_b = off * group.lengths;
-  const auto within = [](const Lanes& along, const Lanes& end, const Lanes& beyond) {
-    return (along >= -beyond) & (along <= end + beyond);
-  };
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto& shift_a = group.shifts[i];
-    const Lanes own_a = between_b - dot<3>(shift_a, across_b), edge_b = dot<3>(shift_a, across_a) - between_a;
-    touching.of_first[i] |= (some & bits(within(own_a, kept_ * square, off_along_a) & within(edge_b, square, off_along_b)))
-                            << first_bit;
-    const LanePoints<3> shift_b{all_lanes(edge.shifts[i][0]), all_lanes(edge.shifts[i][1]), all_lanes(edge.shifts[i][2])};
-    const Lanes own_b = -between_a - dot<3>(shift_b, across_a), edge_a = between_b + dot<3>(shift_b, across_b);
-    touching.of_second[i] |= (some & bits(within(own_b, kept_ * square, off_along_b) & within(edge_a, square, off_along_a)))
-                             << first_bit;
+// between the ends of both, seen along the normal: its start is moved by a share of the way along its edge, which moves it by
+// as much along the edge and not across it, and by the same share of the way to the third corner of its face.
+EdgeBounds::Touching EdgeBounds::may_touch(const Pairs& pairs) const {
+  const Crossing lines = crossing(pairs);
+  Touching touching;
+  if (lines.near == 0) return touching;
+  const Lanes moved_along = moved_ * lines.square, kept = kept_ * lines.square;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::array<Lanes, lane_count> first_thirds, second_thirds;
+    for (int i = 0; i < lane_count; ++i) {
+      // The face beside one of the two vertices has the other one as its third corner.
+      const ElementEdge &of_first = element_edges[pairs[i].of_first], &of_second = element_edges[pairs[i].of_second];
+      first_thirds[i] = moved_ * (first_[of_first.beside[1 - k]] - first_[of_first.start]);
+      second_thirds[i] = moved_ * (second_[of_second.beside[1 - k]] - second_[of_second.start]);
+    }
+    const LanePoints<3> a = columns(first_thirds), b = columns(second_thirds);
+    const Lanes own_first = lines.along_first - moved_along - dot<3>(a, lines.across_second);
+    const Lanes target_second = lines.along_second + dot<3>(a, lines.across_first);
+    touching.of_first[k] =
+        lines.near & bits(within(own_first, kept, lines.off_first) & within(target_second, lines.square, lines.off_second));
+    const Lanes own_second = lines.along_second - moved_along - dot<3>(b, lines.across_first);
+    const Lanes target_first = lines.along_first + dot<3>(b, lines.across_second);
+    touching.of_second[k] =
+        lines.near & bits(within(own_second, kept, lines.off_second) & within(target_first, lines.square, lines.off_first));
   }
+  return touching;
 }
 
 bool may_face(const Shell<3>& owner, const ElementEdge& edge, int beside, const Shell<3>& other, const ElementEdge& target) {

@@ -10,45 +10,50 @@ namespace scree::contact {
 // Which edges of two shells come so near, and lie so, that they may touch.
 EdgePairs near_edges(const ShellPair<3>& pair);
 
-// The semi-edges beside the edges of two shells, four edges of the first at a time. Lengths are in radii of the first, so that
+// An edge of the one shell and one of the other, as numbers of element_edges.
+struct EdgePair {
+  int of_first = 0;
+  int of_second = 0;
+};
+
+// The semi-edges beside the edges of two shells, four pairs of edges at a time. Lengths are in radii of the first, so that
 // their products keep within the range of single precision.
 class EdgeBounds {
  public:
+  using Pairs = std::array<EdgePair, lane_count>;
+
   EdgeBounds(const Shell<3>& first, const Shell<3>& second, double indentation);
 
-  // Of edges of the first, one bit each, those with a semi-edge that may touch an edge of the second: of the semi-edges in the
-  // faces `beside` the own edge; and those that a semi-edge of the second beside that edge may touch, likewise.
+  // Of four pairs, one bit each, those of which the semi-edge in the k-th face `beside` the edge of the first may touch the
+  // edge of the second; and those of which the semi-edge beside the edge of the second may touch that of the first, likewise.
   struct Touching {
     std::array<unsigned, 2> of_first{};
     std::array<unsigned, 2> of_second{};
   };
-  [[nodiscard]] Touching may_touch(unsigned some, const ElementEdge& of_second) const;
+  [[nodiscard]] Touching may_touch(const Pairs& pairs) const;
 
  private:
-  // Four edges.
-  struct Group {
-    LanePoints<3> starts;
-    LanePoints<3> ways;
-    std::array<LanePoints<3>, 2> shifts;  // from the start of an edge to those of its semi-edges
-    Lanes squares;                        // of the edges' lengths
-    Lanes lengths;
-  };
-  struct Edge {
-    std::array<float, 3> start;
-    std::array<float, 3> way;
-    std::array<std::array<float, 3>, 2> shifts;
-    float square;
-    float length;
-  };
-  [[nodiscard]] Edge edge_of_second(const ElementEdge& edge) const;
-  void add(const Group& group, unsigned first_bit, unsigned some, const Edge& edge, Touching& touching) const;
+  // A row for each vertex, seen from the centre of the first: its three axes.
+  using Rows = std::array<Lanes, 4>;
 
-  std::array<Group, 2> groups_;
-  LanePoints<3> second_;  // vertices from the first's centre
-  float distance_;        // between the lines of edges that touch, at most
-  float off_;             // of a length, by rounding
-  float kept_;            // length of a semi-edge, over that of its edge
-  float moved_;           // share of each corner of its face in a semi-spring
+  // Where the lines of four pairs of edges come closest.
+  struct Crossing {
+    Lanes square;                // of the common normal, the cross product of the edges
+    Lanes along_first;           // fraction of the way along the edge of the first, times that square
+    Lanes along_second;          // the same on the edge of the second
+    LanePoints<3> across_first;  // from the edge of the first sideways, in the plane of both
+    LanePoints<3> across_second;
+    Lanes off_first, off_second;  // of along_first and along_second, by rounding
+    unsigned near = 0;            // bit i: the pair i may touch, as far as this tells
+  };
+  [[nodiscard]] Crossing crossing(const Pairs& pairs) const;
+
+  Rows first_, second_;
+  float distance_;  // between the lines of edges that touch, at most
+  float off_;       // of a length, by rounding
+  float kept_;      // length of a semi-edge, over that of its edge
+  float moved_;     // share of each corner of its face in a semi-spring
+  float aside_;     // no semi-edge is further from where its edge would be if it began at the same corner
 };
 
 // Along the common normal of two edges of blocks of one tetrahedron: do both stand out, and does the owner's face beside its

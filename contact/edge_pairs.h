@@ -18,13 +18,6 @@ inline constexpr std::array<EdgePairs, 64> spread = [] {
   return sets;
 }();
 
-// Every sixth bit, to bits 0 to 5: of pairs >> j the edges of the first that are paired with edge j of the second.
-inline unsigned gathered(EdgePairs pairs) {
-  unsigned edges = 0;
-  for (unsigned i = 0; i < 6; ++i) edges |= static_cast<unsigned>(pairs >> 5 * i) & 1u << i;
-  return edges;
-}
-
 // All pairs of these edges of the first.
 inline EdgePairs pairs_of_first(unsigned edges) {
   return spread[edges] * 63;

@@ -37,6 +37,18 @@ unsigned edges_on(const Shell<3>& shell, const std::vector<BlockId>& spring_bloc
   return edges_of_faces[faces];
 }
 
+// Takes up to four pairs from the set, and tells which they are, a bit for each; the others are of no matter.
+unsigned take(EdgePairs& edges, EdgeBounds::Pairs& pairs) {
+  unsigned some = 0;
+  for (int i = 0; i < lane_count && edges != 0; ++i) {
+    const int pair = std::countr_zero(edges);
+    edges &= edges - 1;
+    pairs[i] = {pair / 6, pair % 6};
+    some |= 1u << i;
+  }
+  return some;
+}
+
 }  // namespace
 
 // Asks the semi-edges of two shells about the edges of each other.
@@ -51,16 +63,18 @@ class EdgeSearch::Asking {
     edges &= ~pairs_of_second(edges_on(second, spring_blocks_, first.block));
     if (edges == 0) return;
     const EdgeBounds bounds(first, second, options_.indentation);
-    for (unsigned j = 0; j < element_edges.size(); ++j) {
-      const unsigned some = gathered(edges >> j);
-      if (some == 0) continue;
-      const auto near = bounds.may_touch(some, element_edges[j]);
+    while (edges != 0) {
+      EdgeBounds::Pairs pairs;
+      const unsigned some = take(edges, pairs);
+      const auto near = bounds.may_touch(pairs);
       for (std::size_t k = 0; k < 2; ++k) {
-        for (unsigned left = near.of_first[k]; left != 0; left &= left - 1) {
-          touch(first, static_cast<unsigned>(std::countr_zero(left)), k, second, j);
+        for (unsigned left = near.of_first[k] & some; left != 0; left &= left - 1) {
+          const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
+          touch(first, of_first, k, second, of_second);
         }
-        for (unsigned left = near.of_second[k]; left != 0; left &= left - 1) {
-          touch(second, j, k, first, static_cast<unsigned>(std::countr_zero(left)));
+        for (unsigned left = near.of_second[k] & some; left != 0; left &= left - 1) {
+          const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
+          touch(second, of_second, k, first, of_first);
         }
       }
     }
@@ -68,7 +82,7 @@ class EdgeSearch::Asking {
 
  private:
   // The semi-edge in the k-th face beside an edge of the owner, and an edge of another shell.
-  void touch(const Shell<3>& owner, unsigned edge, std::size_t k, const Shell<3>& other, unsigned target_edge) {
+  void touch(const Shell<3>& owner, int edge, std::size_t k, const Shell<3>& other, int target_edge) {
     const int face = element_edges[edge].beside[k];
     if ((owner.faces >> face & 1u) == 0 || (other.edges >> target_edge & 1u) == 0) return;
     const bool whole = owner.whole && other.whole;

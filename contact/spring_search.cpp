@@ -16,27 +16,35 @@ namespace scree::contact {
 
 namespace {
 
-// How many vertices of the owner are so little beyond all planes of the other shell that they or a semi-spring beside them may
-// touch? A semi-spring is no further from its vertex than the indentation times a diameter.
-template <int dim>
-int vertices_within(const Shell<dim>& owner, const Heights<dim>& above_other, float rounding, float indentation) {
-  const float reach = owner.reach + rounding + 2 * indentation * owner.radius;
-  int count = 0;
-  for (const Lanes& height : above_other) count += bits(height > reach) == 0 ? 1 : 0;
-  return count;
-}
+// How far each vertex of a shell, a lane each, is beyond any plane of another shell: no less than this, and the semi-springs
+// beside it, in whichever face, no less than that.
+struct Beyond {
+  Lanes vertices{};
+  Lanes springs{};
+};
 
-// No semi-spring of any face of the owner is nearer to the other shell than this, by the heights of the vertices alone.
 template <int dim>
-float least_distance(const Heights<dim>& above_other, float indentation) {
-  Lanes low = above_other[0], high = low, sum = low;
+Beyond beyond_planes(const Heights<dim>& above_other, float indentation) {
+  Lanes high = above_other[0], sum = high;
   for (int v = 1; v <= dim; ++v) {
-    low = least(low, above_other[v]);
     high = most(high, above_other[v]);
     sum += above_other[v];
   }
-  const Lanes beyond = (1 - indentation) * low + indentation / dim * (sum - high);
-  return std::max(std::max(beyond[0], beyond[1]), std::max(beyond[2], beyond[3]));
+  // The face of a semi-spring has all vertices but one.
+  const Lanes centres = indentation / dim * (sum - high);
+  const auto by_plane = transposed(above_other[0], above_other[1], above_other[2], above_other[dim == 2 ? 0 : 3]);
+  Beyond beyond;
+  for (int t = 0; t <= dim; ++t) {
+    beyond.vertices = most(beyond.vertices, by_plane[t]);
+    beyond.springs = most(beyond.springs, (1 - indentation) * by_plane[t] + centres[t]);
+  }
+  return beyond;
+}
+
+template <int dim>
+float least_lane(const Lanes& lanes) {
+  float value = std::min(lanes[0], std::min(lanes[1], lanes[2]));
+  return dim == 2 ? value : std::min(value, lanes[3]);
 }
 
 // The semi-springs of one shell after the other.
@@ -193,10 +201,14 @@ template <int dim>
 void SpringSearch<dim>::add(std::size_t chunk, std::uint32_t own, std::uint32_t other, const Heights<dim>& above_other,
                             float rounding) {
   const auto indentation = static_cast<float>(options_.indentation);
-  const int vertices = vertices_within<dim>(table_.shells[own], above_other, rounding, indentation);
-  if (vertices == 0) return;
-  const float bound = least_distance<dim>(above_other, indentation) - rounding;
-  near_[chunk].push_back({own, {other & 0x7fffffffu, vertices >= dim ? 1u : 0u, bound}});
+  const Shell<dim>& owner = table_.shells[own];
+  const Beyond beyond = beyond_planes<dim>(above_other, indentation);
+  const float reach = owner.reach + rounding;
+  if (bits((beyond.vertices <= reach) | (beyond.springs <= reach)) == 0) return;
+  // A semi-spring is no further from its vertex than the indentation times a diameter.
+  const unsigned vertices = bits(beyond.vertices <= reach + 2 * indentation * owner.radius) & ((2u << dim) - 1);
+  near_[chunk].push_back(
+      {own, {other & 0x7fffffffu, std::popcount(vertices) >= dim ? 1u : 0u, least_lane<dim>(beyond.springs) - rounding}});
 }
 
 // Sorts the others by shell.
