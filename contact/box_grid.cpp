@@ -182,12 +182,18 @@ void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_
   }
 }
 
+// Without a branch for each box, which no one could foretell: a box that does not meet is written over.
 template <int dim>
 void BoxGrid<dim>::test(std::uint32_t from, std::uint32_t to, const Packed& box, std::vector<std::uint32_t>& found) const {
+  if (from >= to) return;
+  std::size_t count = found.size();
+  found.resize(count + (to - from));
   for (std::uint32_t other = from; other < to; ++other) {
     const Packed& theirs = packed_[other];
-    if (bits((theirs.low > box.high) | (box.low > theirs.high)) == 0) found.push_back(other);
+    found[count] = other;
+    count += bits((theirs.low > box.high) | (box.low > theirs.high)) == 0 ? 1 : 0;
   }
+  found.resize(count);
 }
 
 template class BoxGrid<2>;
