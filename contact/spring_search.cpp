@@ -109,6 +109,10 @@ class ShellSprings {
     while (count_ > 0) {
       const auto nearest = nearest_of_each();
       for (unsigned left = asked_; left != 0; left &= left - 1) {
+        const std::size_t i = nearest[std::countr_zero(left)];
+        if (i < count_) fetch_corners(possible_[i].target);
+      }
+      for (unsigned left = asked_; left != 0; left &= left - 1) {
         const int spring = std::countr_zero(left);
         if (nearest[spring] < count_) touch(spring, possible_[nearest[spring]].target);
       }
@@ -165,6 +169,7 @@ class ShellSprings {
     const LaneMask near = (least(vertex_away, spring_away) <= owner_->reach + rounding) & (cosine < cosine_rounding);
     const unsigned found = bits(near) & other.faces;
     const Lanes bounds = spring_away - rounding;
+    fetch(other.first);
     if (possible_.size() < count_ + lane_count) possible_.resize(2 * count_ + lane_count);
     Possible* next = possible_.data() + count_;
     for (int t = 0; t <= dim; ++t) {
@@ -172,6 +177,18 @@ class ShellSprings {
       next += found >> t & 1u;
     }
     count_ = static_cast<std::size_t>(next - possible_.data());
+  }
+
+  // What touch_face will ask of a target lies here and there in memory. It is asked for all targets of a shell at once, before
+  // the first is touched, so that they need not be waited for one by one: first the faces, then what they refer to.
+  void fetch(FaceId face) const {
+    __builtin_prefetch(&surface_.faces[face]);
+    __builtin_prefetch(&surface_.normals[face]);
+    if constexpr (dim == 3) __builtin_prefetch(&surface_.face_edges[face]);
+  }
+  void fetch_corners(FaceId face) const {
+    __builtin_prefetch(&surface_.mesh.nodes[surface_.faces[face].nodes[0]]);
+    if constexpr (dim == 3) __builtin_prefetch(&surface_.edges[surface_.face_edges[face][0]]);
   }
 
   // Of each semi-spring the place of its nearest possible target, or the number of all.
@@ -273,6 +290,7 @@ std::vector<std::vector<SpringTouch<dim>>> SpringSearch<dim>::touches() {
       for (const unsigned close : {1u, 0u}) {
         const float limit = springs.limit();
         for (std::size_t n = starts_[i]; n < starts_[i + 1]; ++n) {
+          __builtin_prefetch(&table_.shells[others_[std::min<std::size_t>(n + 3, starts_[i + 1] - 1)].place]);
           if (others_[n].close == close && others_[n].bound <= limit) springs.look_at(table_.shells[others_[n].place]);
         }
         springs.touch_possible();
