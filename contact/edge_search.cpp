@@ -70,19 +70,46 @@ class EdgeSearch::Asking {
       for (std::size_t k = 0; k < 2; ++k) {
         for (unsigned left = near.of_first[k] & some; left != 0; left &= left - 1) {
           const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
-          touch(first, of_first, k, second, of_second);
+          list(first, of_first, k, second, of_second);
         }
         for (unsigned left = near.of_second[k] & some; left != 0; left &= left - 1) {
           const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
-          touch(second, of_second, k, first, of_first);
+          list(second, of_second, k, first, of_first);
         }
       }
     }
+    constexpr std::size_t many = 32;
+    if (possible_.size() >= many) touch_possible();
+  }
+
+  // What touch_edge asks for lies here and there in memory, so it is fetched for many semi-edges at once, before the first is
+  // touched.
+  void touch_possible() {
+    for (const auto& [own, side, target] : possible_) {
+      __builtin_prefetch(&surface_.mesh.nodes[surface_.faces[own].nodes[0]]);
+      __builtin_prefetch(&surface_.mesh.nodes[surface_.edges[target].nodes[0]]);
+      __builtin_prefetch(&surface_.faces[surface_.edges[target].faces[0]]);
+      __builtin_prefetch(&surface_.normals[surface_.edges[target].faces[0]]);
+      __builtin_prefetch(&surface_.edges[surface_.face_edges[own][side]]);
+    }
+    for (const auto& [own, side, target] : possible_) {
+      const auto touch = touch_edge(surface_, options_, own, side, target);
+      if (!touch || joined_by_springs(own, side, target)) continue;
+      const auto semi_edge = static_cast<std::uint32_t>(own.index() * 3 + static_cast<std::size_t>(side));
+      found_.push_back({semi_edge, {target, std::abs(touch->gap), std::abs(touch->along - 0.5)}});
+    }
+    possible_.clear();
   }
 
  private:
+  struct Possible {
+    FaceId own;
+    int side;
+    EdgeId target;
+  };
+
   // The semi-edge in the k-th face beside an edge of the owner, and an edge of another shell.
-  void touch(const Shell<3>& owner, int edge, std::size_t k, const Shell<3>& other, int target_edge) {
+  void list(const Shell<3>& owner, int edge, std::size_t k, const Shell<3>& other, int target_edge) {
     const int face = element_edges[edge].beside[k];
     if ((owner.faces >> face & 1u) == 0 || (other.edges >> target_edge & 1u) == 0) return;
     const bool whole = owner.whole && other.whole;
@@ -90,10 +117,11 @@ class EdgeSearch::Asking {
     const FaceId own = owner.face(face);
     const int side = side_of(element_edges[edge], face);
     const EdgeId target = other.targets[target_edge];
-    const auto touch = touch_edge(surface_, options_, own, side, target);
-    if (!touch || joined_by_springs(own, side, target)) return;
-    const auto semi_edge = static_cast<std::uint32_t>(own.index() * 3 + static_cast<std::size_t>(side));
-    found_.push_back({semi_edge, {target, std::abs(touch->gap), std::abs(touch->along - 0.5)}});
+    possible_.push_back({own, side, target});
+    __builtin_prefetch(&surface_.faces[own]);
+    __builtin_prefetch(&surface_.normals[own]);
+    __builtin_prefetch(&surface_.face_edges[own]);
+    __builtin_prefetch(&surface_.edges[target]);
   }
 
   // Does a semi-spring of a face at the semi-edge's edge have its target on the block of the target edge, or one of a face
@@ -118,6 +146,7 @@ class EdgeSearch::Asking {
   const ContactOptions& options_;
   const std::vector<BlockId>& spring_blocks_;
   std::vector<Touching>& found_;
+  std::vector<Possible> possible_;
 };
 
 EdgeSearch::EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table)
@@ -134,7 +163,13 @@ std::vector<EdgeId> EdgeSearch::targets(const std::vector<FaceId>& spring_target
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Asking asking(*this, spring_blocks, parts[i]);
-    for (const auto& [first, second, edges] : near_[i]) asking.ask(table_.shells[first], table_.shells[second], edges);
+    const auto& near = near_[i];
+    for (std::size_t n = 0; n < near.size(); ++n) {
+      constexpr std::size_t ahead = 4;
+      __builtin_prefetch(&table_.shells[near[std::min(n + ahead, near.size() - 1)].second]);
+      asking.ask(table_.shells[near[n].first], table_.shells[near[n].second], near[n].edges);
+    }
+    asking.touch_possible();
   }
   near_ = {};
   std::vector<Touching> all;
