@@ -34,6 +34,10 @@ LanePoints<3> cross(const LanePoints<3>& a, const LanePoints<3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+LanePoints<3> scaled(const LanePoints<3>& points, float unit) {
+  return {unit * points[0], unit * points[1], unit * points[2]};
+}
+
 LanePoints<3> columns(const std::array<Lanes, lane_count>& rows) {
   const auto all = transposed(rows[0], rows[1], rows[2], rows[3]);
   return {all[0], all[1], all[2]};
@@ -87,26 +91,29 @@ EdgePairs near_edges(const ShellPair<3>& pair) {
   return near & out_of_first & out_of_second;
 }
 
-EdgeBounds::EdgeBounds(const Shell<3>& first, const Shell<3>& second, double indentation)
-    : kept_(static_cast<float>(1 - indentation)), moved_(static_cast<float>(indentation / 3)) {
-  const Way<3> way(first, second);
-  const float unit = 1 / first.radius;
-  const auto rows = [&](const LanePoints<3>& at) { return transposed(unit * at[0], unit * at[1], unit * at[2], Lanes{}); };
-  first_ = rows(first.at);
-  second_ = rows(vertices_from(second, way));
-  distance_ = unit * slack(first, second);
-  off_ = 2 * unit * way.rounding;
-  // The third corner of the face beside an edge is no further from its start than two radii.
-  aside_ = 2 * moved_ * unit * std::max(first.radius, second.radius);
+EdgeBounds::Rows::Rows(const LanePoints<3>& vertices) : at(transposed(vertices[0], vertices[1], vertices[2], Lanes{})) {
+  for (std::size_t from = 0; from < ways.size(); ++from) {
+    for (std::size_t to = 0; to < at.size(); ++to) ways[from][to] = at[to] - at[from];
+  }
 }
+
+// The third corner of the face beside an edge is no further from its start than two radii.
+EdgeBounds::EdgeBounds(const Shell<3>& first, const Shell<3>& second, const Way<3>& way, float unit, float indentation)
+    : first_(scaled(first.at, unit)),
+      second_(scaled(vertices_from(second, way), unit)),
+      distance_(unit * slack(first, second)),
+      off_(2 * unit * way.rounding),
+      kept_(1 - indentation),
+      moved_(indentation / 3),
+      aside_(2 * moved_ * unit * std::max(first.radius, second.radius)) {}
 
 EdgeBounds::Crossing EdgeBounds::crossing(const Pairs& pairs) const {
   std::array<Lanes, lane_count> first_ways, second_ways, starts;
   for (int i = 0; i < lane_count; ++i) {
     const ElementEdge &of_first = element_edges[pairs[i].of_first], &of_second = element_edges[pairs[i].of_second];
-    first_ways[i] = first_[of_first.end] - first_[of_first.start];
-    second_ways[i] = second_[of_second.end] - second_[of_second.start];
-    starts[i] = second_[of_second.start] - first_[of_first.start];
+    first_ways[i] = first_.ways[of_first.start][of_first.end];
+    second_ways[i] = second_.ways[of_second.start][of_second.end];
+    starts[i] = second_.at[of_second.start] - first_.at[of_first.start];
   }
   const LanePoints<3> a = columns(first_ways), b = columns(second_ways), between = columns(starts);
   const LanePoints<3> normal = cross(a, b);
@@ -144,16 +151,16 @@ EdgeBounds::Touching EdgeBounds::may_touch(const Pairs& pairs) const {
     for (int i = 0; i < lane_count; ++i) {
       // The face beside one of the two vertices has the other one as its third corner.
       const ElementEdge &of_first = element_edges[pairs[i].of_first], &of_second = element_edges[pairs[i].of_second];
-      first_thirds[i] = moved_ * (first_[of_first.beside[1 - k]] - first_[of_first.start]);
-      second_thirds[i] = moved_ * (second_[of_second.beside[1 - k]] - second_[of_second.start]);
+      first_thirds[i] = first_.ways[of_first.start][of_first.beside[1 - k]];
+      second_thirds[i] = second_.ways[of_second.start][of_second.beside[1 - k]];
     }
     const LanePoints<3> a = columns(first_thirds), b = columns(second_thirds);
-    const Lanes own_first = lines.along_first - moved_along - dot<3>(a, lines.across_second);
-    const Lanes target_second = lines.along_second + dot<3>(a, lines.across_first);
+    const Lanes own_first = lines.along_first - moved_along - moved_ * dot<3>(a, lines.across_second);
+    const Lanes target_second = lines.along_second + moved_ * dot<3>(a, lines.across_first);
     touching.of_first[k] =
         lines.near & bits(within(own_first, kept, lines.off_first) & within(target_second, lines.square, lines.off_second));
-    const Lanes own_second = lines.along_second - moved_along - dot<3>(b, lines.across_first);
-    const Lanes target_first = lines.along_first + dot<3>(b, lines.across_second);
+    const Lanes own_second = lines.along_second - moved_along - moved_ * dot<3>(b, lines.across_first);
+    const Lanes target_first = lines.along_first + moved_ * dot<3>(b, lines.across_second);
     touching.of_second[k] =
         lines.near & bits(within(own_second, kept, lines.off_second) & within(target_first, lines.square, lines.off_first));
   }

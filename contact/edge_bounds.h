@@ -22,7 +22,8 @@ class EdgeBounds {
  public:
   using Pairs = std::array<EdgePair, lane_count>;
 
-  EdgeBounds(const Shell<3>& first, const Shell<3>& second, double indentation);
+  EdgeBounds(const Shell<3>& first, const Shell<3>& second, double indentation)
+      : EdgeBounds(first, second, Way<3>(first, second), 1 / first.radius, static_cast<float>(indentation)) {}
 
   // Of four pairs, one bit each, those of which the semi-edge in the k-th face `beside` the edge of the first may touch the
   // edge of the second; and those of which the semi-edge beside the edge of the second may touch that of the first, likewise.
@@ -33,8 +34,14 @@ class EdgeBounds {
   [[nodiscard]] Touching may_touch(const Pairs& pairs) const;
 
  private:
-  // A row for each vertex, seen from the centre of the first: its three axes.
-  using Rows = std::array<Lanes, 4>;
+  // A row for each vertex of a shell, seen from the centre of the first, and one for the way from each vertex but the last to
+  // each other: the three axes. No edge starts at the last.
+  struct Rows {
+    explicit Rows(const LanePoints<3>& vertices);
+
+    std::array<Lanes, 4> at;
+    std::array<std::array<Lanes, 4>, 3> ways;
+  };
 
   // Where the lines of four pairs of edges come closest.
   struct Crossing {
@@ -46,6 +53,7 @@ class EdgeBounds {
     Lanes off_first, off_second;  // of along_first and along_second, by rounding
     unsigned near = 0;            // bit i: the pair i may touch, as far as this tells
   };
+  EdgeBounds(const Shell<3>& first, const Shell<3>& second, const Way<3>& way, float unit, float indentation);
   [[nodiscard]] Crossing crossing(const Pairs& pairs) const;
 
   Rows first_, second_;
