@@ -70,7 +70,7 @@ class ShellSprings {
   // Either the vertex or the semi-spring must be within reach of the target face, and so of all planes of its shell.
   void look_at(const Shell<dim>& other) {
     const Way<dim> way(*owner_, other);
-    View view{other, way.rounding, heights_above<dim>(other, vertices_back(*owner_, way)), {}};
+    View view{other, way.rounding, heights_above<dim>(other, vertices_back(*owner_, way)), {}, {}};
     const auto& heights = view.heights;
     view.sum = heights[0];
     for (int v = 1; v <= dim; ++v) view.sum += heights[v];
@@ -90,7 +90,13 @@ class ShellSprings {
       const LaneMask may_win = spring_beyond[f] - way.rounding <= limits_[f];
       near |= bits(may_touch & may_win) << lane_count * f;
     }
-    for (near &= asked_; near != 0; near &= near - 1) {
+    near &= asked_;
+    if (near == 0) return;
+    fetch(other.first);
+    for (int t = 0; t <= dim; ++t) view.faces[t] = other.face(t);
+    constexpr std::size_t most = spring_count * (dim + 1);
+    if (possible_.size() < count_ + most) possible_.resize(2 * count_ + most);
+    for (; near != 0; near &= near - 1) {
       const int spring = std::countr_zero(near), v = spring % lane_count;
       look_at_spring(view, spring, vertex_beyond[v], spring_beyond[spring / lane_count][v]);
     }
@@ -152,13 +158,14 @@ class ShellSprings {
     float rounding;
     Heights<dim> heights;  // of the owner's vertices above the other's planes
     Lanes sum;             // of them all
+    std::array<FaceId, dim + 1> faces;
   };
 
   [[nodiscard]] float limit_of(int spring) const { return limits_[spring / lane_count][spring % lane_count]; }
 
   // Faces that are near are listed without a branch for each, which no one could foretell: a face that is not is written over.
   void look_at_spring(const View& view, int spring, float vertex_beyond, float spring_beyond) {
-    const auto& [other, rounding, heights, sum] = view;
+    const auto& [other, rounding, heights, sum, faces] = view;
     const int f = spring / lane_count, v = spring % lane_count;
     Lanes cosine = owner_->normals[0][f] * other.normals[0];
     for (int i = 1; i < dim; ++i) cosine += owner_->normals[i][f] * other.normals[i];
@@ -169,11 +176,9 @@ class ShellSprings {
     const LaneMask near = (least(vertex_away, spring_away) <= owner_->reach + rounding) & (cosine < cosine_rounding);
     const unsigned found = bits(near) & other.faces;
     const Lanes bounds = spring_away - rounding;
-    fetch(other.first);
-    if (possible_.size() < count_ + lane_count) possible_.resize(2 * count_ + lane_count);
     Possible* next = possible_.data() + count_;
     for (int t = 0; t <= dim; ++t) {
-      *next = {bounds[t], spring, other.face(t)};
+      *next = {bounds[t], spring, faces[t]};
       next += found >> t & 1u;
     }
     count_ = static_cast<std::size_t>(next - possible_.data());
