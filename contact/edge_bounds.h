@@ -61,7 +61,7 @@ class EdgeBounds {
   float off_;       // of a length, by rounding
   float kept_;      // length of a semi-edge, over that of its edge
   float moved_;     // share of each corner of its face in a semi-spring
-  float aside_;     // no semi-edge is further from where its edge would be if it began at the same corner
+  float aside_;     // the third corner of a face moves its semi-edges by no more
 };
 
 // Along the common normal of two edges of blocks of one tetrahedron: do both stand out, and does the owner's face beside its
