@@ -15,6 +15,8 @@ target_compile_options(scree_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-seman
 if(SCREE_SANITIZE)
   target_compile_options(scree_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(scree_flags INTERFACE -fsanitize=address,undefined)
+  # Gmsh has an Eigen of its own in it, and one of the two finds the other's functions: both must take memory in the same way.
+  target_compile_definitions(scree_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # scree_room(NAME SOURCES ... [LINKS ...] [PRIVATE_LINKS ...])
@@ -37,6 +39,7 @@ function(scree_late_library name)
   target_link_libraries(${name} PRIVATE ${LATE_LINKS} scree_flags)
   target_link_options(${name} PRIVATE LINKER:--exclude-libs,ALL)
   install(TARGETS ${name} LIBRARY DESTINATION ${late_libraries})
+  set_property(GLOBAL APPEND PROPERTY scree_late_libraries ${name})
 endfunction()
 
 # scree_test(NAME SOURCES ... LINKS ... [SUITES ...]): a GoogleTest program whose cases CTest knows one by one, or, where the
@@ -46,6 +49,9 @@ function(scree_test name)
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_LINKS} scree_flags GTest::gtest_main GTest::gmock)
   target_compile_definitions(${name} PRIVATE SCREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # It loads them, so no link says that it needs them.
+  get_property(late_libraries_made GLOBAL PROPERTY scree_late_libraries)
+  add_dependencies(${name} ${late_libraries_made})
   if(TEST_SUITES)
     foreach(suite IN LISTS TEST_SUITES)
       add_test(NAME ${name}.${suite} COMMAND ${name} --gtest_filter=${suite}.*:*/${suite}.*)
