@@ -1,4 +1,5 @@
-"""Boxes of tetrahedra, the same for every program, and a file of them for Scree."""
+"""Boxes of tetrahedra, the same for every program, and files of tetrahedra for Scree."""
+import array
 import itertools
 
 
@@ -42,3 +43,22 @@ def write_msh(path, nodes, tetrahedra):
         out.write("".join(f"{x:.12g} {y:.12g} {z:.12g}\n" for x, y, z in nodes) + "$EndNodes\n")
         out.write(f"$Elements\n1 {len(tetrahedra)} 1 {len(tetrahedra)}\n3 1 4 {len(tetrahedra)}\n")
         out.write("".join(f"{e + 1} " + " ".join(str(n + 1) for n in element) + "\n" for e, element in enumerate(tetrahedra)) + "$EndElements\n")
+
+
+def write_vtu(path, nodes, tetrahedra):
+    """VTK's XML format, the numbers in binary behind it."""
+    count, flat = len(tetrahedra), itertools.chain.from_iterable
+    arrays = (("Points", "Points", "Float64", 3, array.array("d", flat(nodes))),
+              ("Cells", "connectivity", "Int64", 1, array.array("q", flat(tetrahedra))),
+              ("Cells", "offsets", "Int64", 1, array.array("q", range(4, 4 * count + 1, 4))),
+              ("Cells", "types", "UInt8", 1, array.array("B", [10]) * count))
+    head, data = {"Points": "", "Cells": ""}, b""
+    for section, name, kind, components, values in arrays:
+        head[section] += f'<DataArray Name="{name}" type="{kind}" NumberOfComponents="{components}" format="appended" '\
+                         f'offset="{len(data)}"/>'
+        data += array.array("Q", [len(values) * values.itemsize]).tobytes() + values.tobytes()
+    sections = "".join(f"<{section}>{text}</{section}>" for section, text in head.items())
+    text = '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>'\
+           f'<Piece NumberOfPoints="{len(nodes)}" NumberOfCells="{count}">{sections}</Piece></UnstructuredGrid>'\
+           '<AppendedData encoding="raw">_'
+    path.write_bytes(text.encode() + data + b"</AppendedData></VTKFile>")

@@ -1,40 +1,37 @@
 """The exact temperatures of the bed: C dT/dt = -K T of spheres that each have one, as the exponential of the matrix.
 
-network.py N HELD TIME [TIME ...]: prints a line of JSON, a list of the temperatures [K] at the compared spheres for every time [s].
+network.py TILE N: prints a line of JSON, for each of TIMES a list of the temperatures [K] at the compared spheres.
 """
 import json
+import pathlib
 import sys
 
 import numpy
 import scipy.sparse
 import scipy.sparse.linalg
 
-from spheres import CAPACITY, CONDUCTANCE, HOT, START, compared
+from spheres import CAPACITY, HOT, START, TIMES, Bed, read_tile
 
 
-def chain(n):
-    """Conductance matrix of n spheres in a row, in conductances of a contact."""
-    degree = numpy.full(n, 2.0)
-    degree[[0, -1]] = 1
-    return scipy.sparse.diags([degree, -numpy.ones(n - 1), -numpy.ones(n - 1)], [0, 1, -1])
+def conductance_matrix(bed):
+    first, second, conductance = (numpy.array(column) for column in zip(*bed.contacts))
+    count = len(bed.centres)
+    passed = scipy.sparse.coo_matrix((conductance, (first, second)), (count, count)).tocsr()
+    passed += passed.T
+    return scipy.sparse.diags(numpy.asarray(passed.sum(axis=1)).ravel()) - passed
 
 
 def main():
-    n, held, times = int(sys.argv[1]), int(sys.argv[2]), [float(word) for word in sys.argv[3:]]
-    one = scipy.sparse.identity(n)
-    # Numbered with x fastest.
-    k = sum(scipy.sparse.kron(a, scipy.sparse.kron(b, c)) for a, b, c in ((one, one, chain(n)), (one, chain(n), one), (chain(n), one, one)))
-    i = numpy.arange(n ** 3)
-    free = ~((i % n < held) & (i // n % n < held) & (i < n * n))
-    a = (-CONDUCTANCE / CAPACITY * k.tocsr()[free][:, free]).tocsc()
-    # What is left of the way to the held temperature, to which all spheres tend.
+    bed = Bed(read_tile(pathlib.Path(sys.argv[1])), int(sys.argv[2]))
+    free = ~numpy.array(bed.held)
+    a = (-1 / CAPACITY * conductance_matrix(bed).tocsr()[free][:, free]).tocsc()
+    # What is left of the way to the held temperature, to which all spheres tend that are joined to held ones.
     left = numpy.full(int(free.sum()), START - HOT)
-    spheres = [x + n * (y + n * z) for x, y, z in compared(n)]
     table = []
-    for time in times:
-        temperature = numpy.full(n ** 3, HOT)
+    for time in TIMES:
+        temperature = numpy.full(len(free), HOT)
         temperature[free] += scipy.sparse.linalg.expm_multiply(a * time, left)
-        table.append([float(temperature[s]) for s in spheres])
+        table.append([float(temperature[sphere]) for sphere in bed.compared])
     print(json.dumps(table))
 
 
