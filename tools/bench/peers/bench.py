@@ -201,9 +201,10 @@ def finish(name, rows, size, arguments, title, error, finer=False):
 
 
 def plot(rows, path, title, axes):
-    """Error against processor seconds, log-log: a curve per program and size, of which the colour says the program and the points the size. `axes`: what a row calls its size and its error, and the
-    error's name."""
+    """Error against processor seconds, log-log: a curve per program and size, of which the colour says the program and the points the
+    size. `axes`: what a row calls its size and its error, and the error's name. Rows without an error are left out."""
     size, error, label = axes
+    rows = [row for row in rows if not math.isnan(row[error])]
     if not shutil.which("gnuplot"):
         print("gnuplot: not installed, no plot")
         return
