@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -25,8 +26,6 @@ constexpr double least_angle = 1e-3;
 // A face of one element only, at one of its corners.
 template <int dim>
 struct Corner {
-  std::uint32_t node;
-  std::uint32_t face;  // as they are visited
   std::size_t element;
   std::array<Point<dim>, dim - 1> sides;  // unit vectors along its edges
   Point<dim> normal;                      // unit, of either sign; not in 2-D
@@ -89,54 +88,76 @@ void for_each_lone_face(const RawMesh& raw, const Visit& visit) {
   }
 }
 
-// All corners of all faces that belong to one element only.
+// A face that belongs to one element only.
+struct LoneFace {
+  std::size_t element;
+  std::uint32_t count;  // of its nodes, which go round
+  std::array<std::uint32_t, 4> nodes;
+};
+
 template <int dim>
-std::vector<Corner<dim>> lone_corners(const RawMesh& raw) {
-  std::vector<Corner<dim>> corners;
-  std::uint32_t face = 0;
+std::vector<LoneFace> lone_faces_of(const RawMesh& raw) {
+  std::vector<LoneFace> faces;
   for_each_lone_face<dim>(raw, [&](std::size_t element, const std::vector<std::size_t>& nodes) {
-    const auto point = [&](std::size_t i) -> Point<dim> { return raw.points[nodes[i % nodes.size()]].template head<dim>(); };
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      Corner<dim> corner{static_cast<std::uint32_t>(nodes[i]), face, element, {}, {}};
-      corner.sides[0] = (point(i + 1) - point(i)).normalized();
-      if constexpr (dim == 3) {
-        corner.sides[1] = (point(i + nodes.size() - 1) - point(i)).normalized();
-        corner.normal = corner.sides[0].cross(corner.sides[1]).normalized();
-      }
-      corners.push_back(corner);
-    }
-    ++face;
+    LoneFace& face = faces.emplace_back(LoneFace{element, static_cast<std::uint32_t>(nodes.size()), {}});
+    std::transform(nodes.begin(), nodes.end(), face.nodes.begin(),
+                   [](std::size_t node) { return static_cast<std::uint32_t>(node); });
   });
-  return corners;
+  return faces;
 }
 
-// The numbers of the corners, those at one node beside each other, in ascending order.
+// The faces at each node, those at one node beside each other, in ascending order.
+struct FacesAtNodes {
+  std::vector<std::uint32_t> ends, faces;
+};
+
+FacesAtNodes by_node(const std::vector<LoneFace>& faces, std::size_t nodes) {
+  FacesAtNodes at{std::vector<std::uint32_t>(nodes + 1, 0), {}};
+  const auto for_each_corner = [&](const auto& use) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      for (std::uint32_t i = 0; i < faces[f].count; ++i) use(f, faces[f].nodes[i]);
+    }
+  };
+  for_each_corner([&](std::uint32_t, std::uint32_t node) { ++at.ends[node + 1]; });
+  std::partial_sum(at.ends.begin(), at.ends.end(), at.ends.begin());
+  at.faces.resize(at.ends.back());
+  for_each_corner([&](std::uint32_t face, std::uint32_t node) { at.faces[at.ends[node]++] = face; });
+  return at;
+}
+
 template <int dim>
-std::vector<std::uint32_t> by_node(const std::vector<Corner<dim>>& corners, std::size_t nodes) {
-  std::vector<std::uint32_t> next(nodes + 1, 0), order(corners.size());
-  for (const Corner<dim>& corner : corners) ++next[corner.node + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  for (std::uint32_t i = 0; i < corners.size(); ++i) order[next[corners[i].node]++] = i;
-  return order;
+Corner<dim> corner_of(const RawMesh& raw, const LoneFace& face, std::uint32_t node) {
+  const auto place = static_cast<std::uint32_t>(std::find(face.nodes.begin(), face.nodes.end(), node) - face.nodes.begin());
+  const auto point = [&](std::uint32_t i) -> Point<dim> { return raw.points[face.nodes[i % face.count]].template head<dim>(); };
+  Corner<dim> corner{face.element, {}, {}};
+  corner.sides[0] = (point(place + 1) - point(place)).normalized();
+  if constexpr (dim == 3) {
+    corner.sides[1] = (point(place + face.count - 1) - point(place)).normalized();
+    corner.normal = corner.sides[0].cross(corner.sides[1]).normalized();
+  }
+  return corner;
 }
 
 }  // namespace
 
 template <int dim>
 void expect_conforming(const BodySpec& body, const RawMesh& raw) {
-  const std::vector<Corner<dim>> corners = lone_corners<dim>(raw);
-  const std::vector<std::uint32_t> order = by_node<dim>(corners, raw.points.size());
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    while (end < order.size() && corners[order[end]].node == corners[order[begin]].node) ++end;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Corner<dim>& corner = corners[order[i]];
-      for (std::size_t j = begin; j < i; ++j) {
-        const Corner<dim>& other = corners[order[j]];
-        if (corner.element == other.element || !overlap(corner, other)) continue;
-        const Eigen::Vector3d& p = raw.points[corner.node];
+  const std::vector<LoneFace> faces = lone_faces_of<dim>(raw);
+  const FacesAtNodes at = by_node(faces, raw.points.size());
+  std::vector<Corner<dim>> corners;
+  for (std::uint32_t node = 0, begin = 0; node < raw.points.size(); begin = at.ends[node++]) {
+    const std::span here = std::span(at.faces).subspan(begin, at.ends[node] - begin);
+    const auto of_the_first = [&](std::uint32_t face) { return faces[face].element == faces[here.front()].element; };
+    if (std::all_of(here.begin(), here.end(), of_the_first)) continue;
+    corners.clear();
+    for (const std::uint32_t face : here) corners.push_back(corner_of<dim>(raw, faces[face], node));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (corners[i].element == corners[j].element || !overlap(corners[i], corners[j])) continue;
+        const Eigen::Vector3d& p = raw.points[node];
         throw file_error(body,
                          fmt::format("elements {} and {} lie on each other near ({:.6g}, {:.6g}, {:.6g}) m, but share no face",
-                                     other.element, corner.element, p.x(), p.y(), p.z()),
+                                     corners[j].element, corners[i].element, p.x(), p.y(), p.z()),
                          "Mesh both sides of that face alike, or make two bodies of them, with a joint between them");
       }
     }
