@@ -50,60 +50,49 @@ bool overlap(const Corner<3>& a, const Corner<3>& b) {
   return angle<3>(middle(a), middle(b)) < reach - least_angle;
 }
 
-// Calls `visit` with the number of the element and the nodes of each face that no other element has, these going round.
-template <int dim, class Visit>
-void for_each_lone_face(const RawMesh& raw, const Visit& visit) {
-  if (dim == 3 && !raw.cells.empty()) {
-    std::vector<std::size_t> nodes;
-    for_each_outer_face(
-        raw.cells, raw.points.size(), [](std::size_t node) { return node; },
-        [&](std::size_t cell, CornerList corners) {
-          nodes.resize(corners.size());
-          std::transform(corners.begin(), corners.end(), nodes.begin(),
-                         [&](std::size_t i) { return raw.cells[cell].nodes[i]; });
-          visit(raw.cells[cell].number, nodes);
-        });
-    return;
-  }
-  const auto& elements = element_cells<dim>(raw);
-  const auto face_of = [&](std::size_t element, std::size_t out) {
-    std::vector<std::size_t> nodes(elements[element].nodes.begin(), elements[element].nodes.end());
-    nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(out));
-    return nodes;
-  };
-  const auto for_each_face = [&](const auto& take) {
-    for (const auto& element : elements) {
-      for (std::size_t out = 0; out <= dim; ++out) {
-        std::array<std::uint32_t, dim> face;
-        for (std::size_t i = 0, k = 0; i <= dim; ++i) {
-          if (i != out) face[k++] = static_cast<std::uint32_t>(element.nodes[i]);
-        }
-        std::sort(face.begin(), face.end());
-        take(face);
-      }
-    }
-  };
-  for (const std::uint32_t place : lone_faces<dim>(raw.points.size(), for_each_face)) {
-    visit(elements[place / (dim + 1)].number, face_of(place / (dim + 1), place % (dim + 1)));
-  }
-}
-
 // A face that belongs to one element only.
 struct LoneFace {
-  std::size_t element;
+  std::size_t element;  // its number
   std::uint32_t count;  // of its nodes, which go round
   std::array<std::uint32_t, 4> nodes;
 };
 
 template <int dim>
 std::vector<LoneFace> lone_faces_of(const RawMesh& raw) {
-  std::vector<LoneFace> faces;
-  for_each_lone_face<dim>(raw, [&](std::size_t element, const std::vector<std::size_t>& nodes) {
-    LoneFace& face = faces.emplace_back(LoneFace{element, static_cast<std::uint32_t>(nodes.size()), {}});
-    std::transform(nodes.begin(), nodes.end(), face.nodes.begin(),
-                   [](std::size_t node) { return static_cast<std::uint32_t>(node); });
-  });
-  return faces;
+  std::vector<LoneFace> lone;
+  if (dim == 3 && !raw.cells.empty()) {
+    for_each_outer_face(
+        raw.cells, raw.points.size(), [](std::size_t node) { return node; },
+        [&](std::size_t cell, CornerList corners) {
+          LoneFace& face = lone.emplace_back(LoneFace{raw.cells[cell].number, static_cast<std::uint32_t>(corners.size()), {}});
+          std::transform(corners.begin(), corners.end(), face.nodes.begin(),
+                         [&](std::size_t i) { return static_cast<std::uint32_t>(raw.cells[cell].nodes[i]); });
+        });
+    return lone;
+  }
+  const auto& elements = element_cells<dim>(raw);
+  const auto face_of = [&](std::size_t element, std::size_t out) {
+    std::array<std::uint32_t, dim> face;
+    for (std::size_t i = 0, k = 0; i <= dim; ++i) {
+      if (i != out) face[k++] = static_cast<std::uint32_t>(elements[element].nodes[i]);
+    }
+    return face;
+  };
+  const auto for_each_face = [&](const auto& take) {
+    for (std::size_t element = 0; element < elements.size(); ++element) {
+      for (std::size_t out = 0; out <= dim; ++out) {
+        auto face = face_of(element, out);
+        std::sort(face.begin(), face.end());
+        take(face);
+      }
+    }
+  };
+  for (const std::uint32_t place : lone_faces<dim>(raw.points.size(), for_each_face)) {
+    const auto nodes = face_of(place / (dim + 1), place % (dim + 1));
+    LoneFace& face = lone.emplace_back(LoneFace{elements[place / (dim + 1)].number, dim, {}});
+    std::copy(nodes.begin(), nodes.end(), face.nodes.begin());
+  }
+  return lone;
 }
 
 // The faces at each node, those at one node beside each other, in ascending order.
