@@ -4,19 +4,6 @@
 
 namespace scree::thermal {
 
-template <int dim>
-TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form) {
-  const contact::Stencil<dim> owner = form == JointForm::consistent ? contact.on_owner : contact::literal_owner(contact);
-  TemperatureDifference<dim> difference;
-  for (int i = 0; i < dim; ++i) {
-    difference.nodes[i] = owner.nodes[i];
-    difference.weights[i] = owner.weights[i];
-    difference.nodes[dim + i] = contact.on_target.nodes[i];
-    difference.weights[dim + i] = -contact.on_target.weights[i];
-  }
-  return difference;
-}
-
 namespace {
 
 // Outwards and unit: the nodes of a boundary face are in that order.
@@ -55,7 +42,6 @@ double mean_conductivity(const mesh::BlockMesh<dim>& mesh, const Table<MaterialI
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                 \
-  template TemperatureDifference<dim> temperature_difference<dim>(const contact::Contact<dim>&, JointForm);    \
   template Point<dim> contact_normal<dim>(const mesh::BlockMesh<dim>&, const contact::Contact<dim>&);          \
   template Point<dim> conducted<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, BlockId, \
                                      const Point<dim>&);                                                       \

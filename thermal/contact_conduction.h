@@ -25,7 +25,17 @@ struct TemperatureDifference {
 };
 
 template <int dim>
-TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form);
+TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form) {
+  const contact::Stencil<dim> owner = form == JointForm::consistent ? contact.on_owner : contact::literal_owner(contact);
+  TemperatureDifference<dim> difference;
+  for (int i = 0; i < dim; ++i) {
+    difference.nodes[i] = owner.nodes[i];
+    difference.weights[i] = owner.weights[i];
+    difference.nodes[dim + i] = contact.on_target.nodes[i];
+    difference.weights[dim + i] = -contact.on_target.weights[i];
+  }
+  return difference;
+}
 
 // What the two sides of a contact have to do with how well it conducts.
 struct ContactSides {

@@ -13,7 +13,7 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 5";
+constexpr const char* format_name = "scree heat state 6";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;

@@ -21,7 +21,7 @@ std::optional<RowNumbering> number_rows(const mesh::BlockMesh<dim>& mesh, const 
     }
   }
   const std::vector<NodeId> in_mesh_order = first;
-  if (in_order) first = in_space_order(std::move(first), model.blocks, model.places);
+  if (in_order) first = in_space_order(in_mesh_order, model.blocks, model.places);
   Table<NodeId, NodeId> rows(mesh.nodes.size());
   for (std::size_t row = 0; row < first.size(); ++row) rows[first[row]] = NodeId(row);
   for (const NodeId node : mesh.nodes.ids()) rows[node] = rows[first_of[node]];

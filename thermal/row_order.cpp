@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <tuple>
-
-#include "thermal/row_bundles.h"
+#include <utility>
 
 namespace scree::thermal {
 
@@ -47,25 +47,74 @@ class Grid {
   double thickness_;
 };
 
-}  // namespace
+// Nodes that keep their order: those of a small block, or a single one.
+struct Group {
+  std::span<const NodeId> nodes;
+  bool small_block;
+};
 
-std::vector<NodeId> in_space_order(std::vector<NodeId> nodes, const Table<NodeId, BlockId>& blocks,
-                                   const Eigen::Matrix3Xd& places) {
-  const Grid grid(places, nodes.size());
-  std::vector<Place> order;
-  order.reserve(nodes.size());
+std::vector<Group> groups_of(std::span<const NodeId> nodes, const Table<NodeId, BlockId>& blocks) {
+  std::vector<Group> groups;
   for (std::size_t first = 0; first < nodes.size();) {
     std::size_t end = first + 1;
     while (end < nodes.size() && blocks[nodes[end]] == blocks[nodes[first]]) ++end;
-    const bool together = end - first <= rows_in_bundle;
-    for (std::size_t i = first; i < end; ++i) {
-      order.push_back(grid.place(places.col(nodes[together ? first : i].value()), nodes[i]));
-    }
-    first = end;
+    const bool small = end - first <= rows_in_bundle;
+    const std::size_t size = small ? end - first : 1;
+    for (; first < end; first += size) groups.push_back({nodes.subspan(first, size), small});
+  }
+  return groups;
+}
+
+std::vector<NodeId> by_slabs(const std::vector<Group>& groups, std::size_t nodes, const Eigen::Matrix3Xd& places) {
+  const Grid grid(places, nodes);
+  std::vector<Place> order;
+  order.reserve(nodes);
+  for (const Group& group : groups) {
+    for (const NodeId node : group.nodes) order.push_back(grid.place(places.col(group.nodes[0].value()), node));
   }
   std::sort(order.begin(), order.end());
-  std::transform(order.begin(), order.end(), nodes.begin(), [](const Place& place) { return place.node; });
-  return nodes;
+  std::vector<NodeId> ordered;
+  ordered.reserve(nodes);
+  for (const Place& place : order) ordered.push_back(place.node);
+  return ordered;
+}
+
+// Halves them across their longest side, and each half again.
+void halve(std::span<Group> groups, const Eigen::Matrix3Xd& places) {
+  constexpr std::size_t few = 2;
+  if (groups.size() <= few) return;
+  const auto at = [&](const Group& group) { return places.col(group.nodes[0].value()); };
+  Eigen::Vector3d least = at(groups[0]), largest = least;
+  for (const Group& group : groups) {
+    least = least.cwiseMin(at(group));
+    largest = largest.cwiseMax(at(group));
+  }
+  int axis = 0;
+  (largest - least).maxCoeff(&axis);
+  const std::size_t half = groups.size() / 2;
+  std::nth_element(
+      groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(half), groups.end(),
+      [&](const Group& a, const Group& b) { return std::pair(at(a)[axis], a.nodes[0]) < std::pair(at(b)[axis], b.nodes[0]); });
+  halve(groups.first(half), places);
+  halve(groups.subspan(half), places);
+}
+
+std::vector<NodeId> by_halves(std::vector<Group> groups, std::size_t nodes, const Eigen::Matrix3Xd& places) {
+  const auto small = std::stable_partition(groups.begin(), groups.end(), [](const Group& group) { return !group.small_block; });
+  halve({small, groups.end()}, places);
+  std::vector<NodeId> ordered;
+  ordered.reserve(nodes);
+  for (const Group& group : groups) ordered.insert(ordered.end(), group.nodes.begin(), group.nodes.end());
+  return ordered;
+}
+
+}  // namespace
+
+std::vector<NodeId> in_space_order(const std::vector<NodeId>& nodes, const Table<NodeId, BlockId>& blocks,
+                                   const Eigen::Matrix3Xd& places) {
+  std::vector<Group> groups = groups_of(nodes, blocks);
+  return nodes.size() >= many_rows ? by_slabs(groups, nodes.size(), places)
+                                   : by_halves(std::move(groups), nodes.size(), places);
 }
 
 }  // namespace scree::thermal

@@ -1,5 +1,8 @@
 // Rows in the order of space, and products that share what they read.
+#include <set>
+
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "engine/base/threads.h"
 #include "tests/thermal/builders.h"
@@ -58,31 +61,74 @@ TEST(RowOrder, AModelWhoseRowsAreInTheOrderOfSpaceConductsAndStoresAsItsElements
   }
 }
 
-TEST(RowOrder, SmallMeshesAndGridsOfCellsKeepTheirOrder) {
+TEST(RowOrder, SmallMeshesOfLargeBlocksKeepTheirOrder) {
   const mesh::BlockMesh<3> mesh = eight_slabs(3);
   EXPECT_FALSE(is_worth_ordering(mesh));
   EXPECT_TRUE(make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300)).rows.is_identity());
 }
 
-TEST(RowOrder, GoesThroughSlabsAcrossTheLongestSideAndKeepsSmallBlocksTogether) {
-  // A row of ten bars of two nodes each along y, listed backwards, then the nodes of a large block between them.
+// Nodes of a mesh, listed one by one.
+struct Nodes {
   std::vector<NodeId> nodes;
   Table<NodeId, BlockId> blocks;
-  Eigen::Matrix3Xd places(3, 30);
-  for (int i = 0; i < 30; ++i) {
-    nodes.emplace_back(static_cast<std::size_t>(i));
-    const bool bar = i < 20;
-    blocks.push_back(BlockId(static_cast<std::size_t>(bar ? i / 2 : 10)));
-    places.col(i) = bar ? Eigen::Vector3d(0.3 * (i % 2), 9 - i / 2, 0.1 * (i % 2)) : Eigen::Vector3d(0.1, i - 20 + 0.05, 0.05);
+  std::vector<Eigen::Vector3d> places;
+
+  void add(std::size_t block, const Eigen::Vector3d& at) {
+    nodes.emplace_back(nodes.size());
+    blocks.push_back(BlockId(block));
+    places.push_back(at);
   }
-  const std::vector<NodeId> order = in_space_order(nodes, blocks, places);
-  ASSERT_EQ(order.size(), nodes.size());
+
+  [[nodiscard]] std::vector<NodeId> in_order() const {
+    return in_space_order(nodes, blocks, Eigen::Map<const Eigen::Matrix3Xd>(places[0].data(), 3, std::ssize(places)));
+  }
+};
+
+TEST(RowOrder, GoesThroughSlabsAcrossTheLongestSideAndKeepsSmallBlocksTogether) {
+  // A row of bars of two nodes each along y, listed backwards, then the nodes of a large block between them.
+  constexpr int bars = 20'000;
+  Nodes mesh;
+  for (int i = 0; i < 2 * bars; ++i) mesh.add(i / 2, {0.3 * (i % 2), bars - 1.0 - i / 2, 0.1 * (i % 2)});
+  for (int i = 0; i < bars; ++i) mesh.add(bars, {0.1, i + 0.05, 0.05});
+  const std::vector<NodeId> order = mesh.in_order();
+  ASSERT_EQ(order.size(), 3 * bars);
+  long wrong = 0;
   for (std::size_t i = 0; i < order.size(); i += 3) {
-    const std::size_t bar = 9 - i / 3;
-    EXPECT_EQ(order[i], NodeId(2 * bar));
-    EXPECT_EQ(order[i + 1], NodeId(2 * bar + 1));
-    EXPECT_EQ(order[i + 2], NodeId(20 + i / 3));
+    const std::size_t bar = bars - 1 - i / 3;
+    wrong +=
+        order[i] == NodeId(2 * bar) && order[i + 1] == NodeId(2 * bar + 1) && order[i + 2] == NodeId(2 * bars + i / 3) ? 0 : 1;
   }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(RowOrder, OfAPileThatStaysInTheCacheLargeBlocksComeFirstAndEveryEighthOfTheSmallOnesIsACornerOfIt) {
+  // Eight by eight by eight blocks of four nodes, listed in no order of note, with a large block of seven in their midst.
+  Nodes mesh;
+  for (int i = 0; i < 512; ++i) {
+    if (i == 100) {
+      for (int k = 0; k < 7; ++k) mesh.add(512, {-1.0, 0.5 * k, 0});
+    }
+    const int place = i * 211 % 512;
+    for (int k = 0; k < 4; ++k)
+      mesh.add(i, Eigen::Vector3d(place % 8, place / 8 % 8, place / 64) + 0.1 * k * Eigen::Vector3d::Ones());
+  }
+  const std::vector<NodeId> order = mesh.in_order();
+  ASSERT_EQ(order.size(), mesh.nodes.size());
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(order[k], NodeId(400 + k));
+  std::set<int> corners;
+  for (std::size_t first = 7; first < order.size(); first += 4 * 64) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = first; i < first + 4 * 64; ++i) {
+      if ((i - 7) % 4 != 0) {
+        EXPECT_EQ(order[i].value(), order[i - 1].value() + 1);
+      } else {
+        box.extend(mesh.places[order[i].index()]);
+      }
+    }
+    EXPECT_EQ(box.sizes(), Eigen::Vector3d(3, 3, 3));
+    corners.insert(static_cast<int>(box.min().dot(Eigen::Vector3d(1, 2, 4)) / 4));
+  }
+  EXPECT_EQ(corners.size(), 8U);
 }
 
 // Rows of K like those of a solid: each has entries at the 27 nodes around its own.
