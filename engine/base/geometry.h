@@ -22,4 +22,13 @@ struct Pose {
   [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& reference) const { return rotation * reference + translation; }
 };
 
+inline Pose inverse(const Pose& pose) {
+  const Eigen::Quaterniond back = pose.rotation.conjugate();
+  return {back * -pose.translation, back};
+}
+
+inline Pose operator*(const Pose& outer, const Pose& inner) {
+  return {outer * inner.translation, (outer.rotation * inner.rotation).normalized()};
+}
+
 }  // namespace scree

@@ -40,14 +40,15 @@ ContactSolver::Touch touch_of(const btPersistentManifold& manifold) {
     touch.depth = std::max(touch.depth, -point.m_distance1);
   }
   touch.impulse = impulse.length();
+  touch.of = &manifold;
   return touch;
 }
 
 }  // namespace
 
-void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, Manifolds manifolds, const StepLengths& step,
-                          int iterations) {
-  start(bodies, step.time_step);
+void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Manifolds manifolds,
+                          const StepLengths& step, int iterations) {
+  start(bodies, sleepers, step.time_step);
   sort(manifolds);
   set_up(manifolds, step);
   solve_rows(iterations);
@@ -55,13 +56,13 @@ void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, Manifolds man
   undo_overlaps(bodies, step, iterations);
 }
 
-void ContactSolver::start(const std::vector<btRigidBody*>& bodies, double time_step) {
+void ContactSolver::start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, double time_step) {
   starts_.resize(bodies.size());
   changes_.assign(bodies.size(), {});
   for_short_chunks(bodies.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       bodies[i]->setCompanionId(static_cast<int>(i));
-      starts_[i] = start_of(*bodies[i], time_step);
+      starts_[i] = sleepers.asleep(bodies[i]->getUserIndex()) ? start_asleep(*bodies[i]) : start_of(*bodies[i], time_step);
       changes_[i].inverse_mass = starts_[i].inverse_mass;
     }
   });
@@ -73,7 +74,7 @@ void ContactSolver::sort(Manifolds manifolds) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       Entry& entry = entries_[i];
       entry.ids = {manifolds[i]->getBody0()->getCompanionId(), manifolds[i]->getBody1()->getCompanionId()};
-      entry.count = entry.ids[0] < 0 && entry.ids[1] < 0 ? 0 : manifolds[i]->getNumContacts();
+      entry.count = moves(entry.ids) ? manifolds[i]->getNumContacts() : 0;
     }
   });
   int slabs = slabs_for(starts_.size());
@@ -132,14 +133,16 @@ void ContactSolver::solve_rows(int iterations) {
 void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds) {
   for_short_chunks(bodies.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      bodies[i]->setCompanionId(-1);
+      if (!moves({static_cast<int>(i), -1})) continue;
       bodies[i]->setLinearVelocity(to_bullet(starts_[i].linear + changes_[i].linear));
       bodies[i]->setAngularVelocity(to_bullet(starts_[i].angular + changes_[i].angular));
-      bodies[i]->setCompanionId(-1);
     }
   });
   touches_.resize(entries_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (!moves(entries_[i].ids) && touches_[i].of == manifolds[i]) continue;
       for (int k = 0; k < entries_[i].count; ++k) {
         const ContactRow& row = rows_[entries_[i].rows[k]];
         btManifoldPoint& point = manifolds[i]->getContactPoint(k);

@@ -2,6 +2,7 @@
 // Bullet 3.24 starts every step with no friction, and a pile creeps and sinks for want of it (README.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "engine/rigid/contact_rows.h"
 #include "engine/rigid/row_batches.h"
 #include "engine/rigid/row_setup.h"
+#include "engine/rigid/sleepers.h"
 
 class btPersistentManifold;
 class btRigidBody;
@@ -24,11 +26,14 @@ class ContactSolver {
     std::array<int, 2> blocks{-1, -1};
     double impulse = 0;  // of the last step, magnitude [N s]
     double depth = 0;    // of the deepest overlap as the step began, 0 if there is none [m]
+    const btPersistentManifold* of = nullptr;
   };
 
   // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other bodies of
-  // the manifolds are fixed. The same bits for any number of threads. The bodies' user indices are their blocks.
-  void solve(const std::vector<btRigidBody*>& bodies, Manifolds manifolds, const StepLengths& step, int iterations);
+  // the manifolds are fixed, and so are those that sleep. The same bits for any number of threads. The bodies' user indices are
+  // their blocks.
+  void solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Manifolds manifolds, const StepLengths& step,
+             int iterations);
 
   // Of the last step, one per manifold.
   [[nodiscard]] std::span<const Touch> touches() const { return touches_; }
@@ -40,7 +45,11 @@ class ContactSolver {
     int batch = 0;
     std::array<int, 4> rows;  // of its points
   };
-  void start(const std::vector<btRigidBody*>& bodies, double time_step);
+  void start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, double time_step);
+  // Whether any of them, by their places among the bodies, does; -1: fixed.
+  [[nodiscard]] bool moves(const std::array<int, 2>& ids) const {
+    return std::any_of(ids.begin(), ids.end(), [&](int id) { return id >= 0 && starts_[id].inverse_mass > 0; });
+  }
   void sort(Manifolds manifolds);
   bool order_rows(int slabs);
   void set_up(Manifolds manifolds, const StepLengths& step);

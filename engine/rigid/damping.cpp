@@ -35,6 +35,7 @@ void Damping::slow_down(const World& world, double local, double viscous, double
   const double kept = 1 - viscous * time_step;
   for_short_chunks(world.free_blocks().size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (world.asleep(world.free_blocks()[i])) continue;
       btRigidBody& body = *world.free_bodies()[i];
       Motion& motion = motions_[world.free_blocks()[i].index()];
       motion.velocity = from_bullet(body.getLinearVelocity());
@@ -55,6 +56,7 @@ void Damping::slow_down(const World& world, double local, double viscous, double
 void Damping::observe(const World& world, double time_step) {
   for_short_chunks(world.free_blocks().size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (world.asleep(world.free_blocks()[i])) continue;
       const btRigidBody& body = *world.free_bodies()[i];
       Motion& motion = motions_[world.free_blocks()[i].index()];
       motion.acceleration = (from_bullet(body.getLinearVelocity()) - motion.velocity) / time_step;

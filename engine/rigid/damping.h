@@ -19,7 +19,7 @@ class Damping {
  public:
   Damping(const World& world, const Eigen::Vector3d& gravity);
 
-  // Slows the blocks before a step; `viscous` in 1/s.
+  // Slows the blocks that are awake before a step; `viscous` in 1/s.
   void slow_down(const World& world, double local, double viscous, double time_step);
   // Takes the net forces of the step just made.
   void observe(const World& world, double time_step);
@@ -28,10 +28,10 @@ class Damping {
   [[nodiscard]] Table<BlockId, double> net_forces(const World& world) const;
   // Mean over the free blocks of the magnitude of the net force of the last step, damping excluded [N].
   [[nodiscard]] double mean_net_force(const World& world) const;
-
- private:
+  // Of one of them; of a sleeping one, that of the last step in which it was awake [N].
   [[nodiscard]] double net_force(const World& world, BlockId block) const;
 
+ private:
   struct Motion {
     Eigen::Vector3d velocity;      // before the step [m/s]
     Eigen::Vector3d rotation;      // before the step, world axes [rad/s]

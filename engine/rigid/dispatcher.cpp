@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 
 #include "engine/base/phases.h"
 #include "engine/rigid/compound_collision.h"
@@ -44,27 +45,22 @@ int block_of(const btBroadphaseProxy* proxy) {
   return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
 }
 
-// What is noted in a pair that was found far apart, so that a look at it reads nothing else: its blocks, from 1 on.
-struct FarBlocks {
+// What is noted in a pair that was looked at, so that the next look may read nothing else: its blocks, from 1 on, and as
+// negative numbers unless they were found far apart.
+struct SeenBlocks {
   std::int32_t first, second;
 };
-static_assert(sizeof(FarBlocks) == sizeof(void*));
+static_assert(sizeof(SeenBlocks) == sizeof(void*));
 
 void note(btBroadphasePair& pair, bool far) {
-  const FarBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
-  pair.m_internalInfo1 = far ? std::bit_cast<void*>(blocks) : nullptr;
-}
-
-bool stays_far(const btBroadphasePair& pair, const Homes& homes) {
-  if (pair.m_internalInfo1 == nullptr) return false;
-  const auto [first, second] = std::bit_cast<FarBlocks>(pair.m_internalInfo1);
-  return homes.at_home(first - 1) && homes.at_home(second - 1);
+  const SeenBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
+  pair.m_internalInfo1 = std::bit_cast<void*>(far ? blocks : SeenBlocks{-blocks.first, -blocks.second});
 }
 
 }  // namespace
 
-Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes)
-    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes) {
+Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers)
+    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes), sleepers_(sleepers) {
   setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
 }
 
@@ -123,10 +119,18 @@ void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std
   }
 }
 
+bool Dispatcher::stays_as_it_is(const btBroadphasePair& pair) const {
+  if (pair.m_internalInfo1 == nullptr) return false;
+  const auto [first, second] = std::bit_cast<SeenBlocks>(pair.m_internalInfo1);
+  if (first > 0 && homes_.at_home(first - 1) && homes_.at_home(second - 1)) return true;
+  return sleepers_.still(std::abs(first) - 1) && sleepers_.still(std::abs(second) - 1);
+}
+
 void Dispatcher::look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const {
-  if (pair.m_algorithm == nullptr || stays_far(pair, homes_)) return;
+  if (pair.m_algorithm == nullptr || stays_as_it_is(pair)) return;
   const WrappedPair wrapped(pair);
   if (!wrapped.of_polyhedra()) {
+    note(pair, false);
     news.push_back({number, std::nullopt});
     return;
   }

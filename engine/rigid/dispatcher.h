@@ -11,6 +11,7 @@
 #include "engine/rigid/flights.h"
 #include "engine/rigid/homes.h"
 #include "engine/rigid/polyhedron_collision.h"
+#include "engine/rigid/sleepers.h"
 
 namespace scree::rigid {
 
@@ -19,8 +20,8 @@ namespace scree::rigid {
 class Dispatcher final : public btCollisionDispatcher {
  public:
   // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
-  // home.
-  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes);
+  // home, nor two that do not move.
+  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers);
   void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
 
@@ -32,11 +33,13 @@ class Dispatcher final : public btCollisionDispatcher {
   static void claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news);
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);
+  [[nodiscard]] bool stays_as_it_is(const btBroadphasePair& pair) const;
   // Appends what is new of the pair with this number.
   void look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const;
 
   Flights& flights_;
   const Homes& homes_;
+  const Sleepers& sleepers_;
 };
 
 }  // namespace scree::rigid

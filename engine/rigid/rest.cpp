@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/rigid/polyhedron_shape.h"
+#include "engine/rigid/bullet_pose.h"
 
 namespace scree::rigid {
-
-namespace {
 
 double kinetic_energy(const btRigidBody& body, double mass) {
   const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
@@ -20,13 +18,6 @@ double kinetic_energy(const btRigidBody& body, double mass) {
   return energy;
 }
 
-Pose pose_of(const btRigidBody& body) {
-  const btQuaternion q = body.getOrientation();
-  return {from_bullet(body.getCenterOfMassPosition()), Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z())};
-}
-
-}  // namespace
-
 Motion observe_motion(const World& world, const Damping& damping, double time_step) {
   Motion motion;
   double energy = 0;
@@ -34,8 +25,9 @@ Motion observe_motion(const World& world, const Damping& damping, double time_st
   for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
     const btRigidBody& body = *world.free_bodies()[i];
     const BlockId block = world.free_blocks()[i];
-    energy += kinetic_energy(body, world.mass(block));
     total += world.mass(block);
+    if (world.asleep(block)) continue;
+    energy += kinetic_energy(body, world.mass(block));
     motion.max_speed = std::max(motion.max_speed,
                                 body.getLinearVelocity().length() + world.radius(block) * body.getAngularVelocity().length());
   }
@@ -60,19 +52,18 @@ void RestWatch::begin(const World& world, double time) {
   largest_ = {};
   blocks_ = world.free_blocks();
   poses_.clear();
-  for (const btRigidBody* body : world.free_bodies()) poses_.push_back(pose_of(*body));
+  for (const btRigidBody* body : world.free_bodies()) poses_.push_back(pose_of(body->getWorldTransform()));
 }
 
 bool RestWatch::observe(const World& world, const Motion& motion, double time) {
   largest_.rms_speed = std::max(largest_.rms_speed, motion.rms_speed);
   largest_.unbalanced = std::max(largest_.unbalanced, motion.unbalanced);
-  // Half a millionth of a window: times are sums of steps.
-  if (time - since_ < rest_window_ * (1 - 5e-7)) return false;
+  if (!is_over(time - since_, rest_window_)) return false;
   const bool same_blocks = blocks_ == world.free_blocks();
   window_ = time - since_;
   displacement_ = 0;
   for (std::size_t i = 0; same_blocks && i < blocks_.size(); ++i) {
-    const Pose now = pose_of(*world.free_bodies()[i]);
+    const Pose now = pose_of(world.free_bodies()[i]->getWorldTransform());
     const double turned = 2 * (now.rotation * poses_[i].rotation.conjugate()).vec().norm();
     displacement_ =
         std::max(displacement_, (now.translation - poses_[i].translation).norm() + turned * world.radius(blocks_[i]));

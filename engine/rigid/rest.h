@@ -8,6 +8,13 @@
 
 namespace scree::rigid {
 
+double kinetic_energy(const btRigidBody& body, double mass);  // rotation included [J]
+
+// Whether a window of this length is over; times are sums of steps.
+inline bool is_over(double passed, double window) {
+  return passed >= window * (1 - 5e-7);
+}
+
 // What one step tells about the state of motion.
 struct Motion {
   double rms_speed = 0;   // sqrt(2 kinetic energy / mass), rotation included [m/s]

@@ -66,6 +66,12 @@ BodyStart start_of(const btRigidBody& body, double time_step) {
   return start;
 }
 
+BodyStart start_asleep(const btRigidBody& body) {
+  BodyStart start;
+  start.centre = from_bullet(body.getCenterOfMassPosition());
+  return start;
+}
+
 ContactRow contact_row(const btManifoldPoint& point, const Bodies& bodies, std::array<int, 2> ids, const StepLengths& step) {
   Arms arms{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   if (bodies[0] != nullptr) arms[0] = from_bullet(point.m_positionWorldOnA) - bodies[0]->centre;

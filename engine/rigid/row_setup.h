@@ -10,10 +10,11 @@ namespace scree::rigid {
 
 // A body as it enters a step.
 struct BodyStart {
-  Eigen::Vector3d centre;           // [m]
-  Eigen::Vector3d linear, angular;  // with what gravity and its own spin add to them in the step [m/s], [1/s]
-  Eigen::Matrix3d inverse_inertia;  // world axes [1/(kg m2)]
-  double inverse_mass = 0;          // [1/kg]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]
+  // With what gravity and its own spin add to them in the step [m/s], [1/s].
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  // world axes [1/(kg m2)]
+  double inverse_mass = 0;                                    // [1/kg]
   const btRigidBody* body = nullptr;
 };
 
@@ -25,6 +26,7 @@ struct StepLengths {
 };
 
 BodyStart start_of(const btRigidBody& body, double time_step);
+BodyStart start_asleep(const btRigidBody& body);  // nothing moves it
 
 // The rows of a point, starting from the impulses of the last step; null: a fixed body. `ids` as the rows are to hold them.
 ContactRow contact_row(const btManifoldPoint& point, const std::array<const BodyStart*, 2>& bodies, std::array<int, 2> ids,

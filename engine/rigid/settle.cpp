@@ -13,6 +13,7 @@
 #include "engine/rigid/fall.h"
 #include "engine/rigid/polyhedron_shape.h"
 #include "engine/rigid/rest.h"
+#include "engine/rigid/resting_groups.h"
 #include "engine/rigid/scene_bounds.h"
 #include "engine/rigid/world.h"
 
@@ -145,6 +146,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
   packing::SettleReport report;
   report.mean_edge = mesh::mean_edge(mesh_);
   RestWatch watch(world_, options_, report.mean_edge, time());
+  RestingGroups groups(world_, options_, report.mean_edge, time());
   double viscous = options_.viscous_damping;
   Motion motion = observe_motion(world_, damping_, options_.step);
   while (!report.at_rest && time() + options_.step <= options_.limit * (1 + 1e-9)) {
@@ -152,16 +154,22 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     if (progress) progress(time(), motion.rms_speed);
     frames.offer(world_, time());
     const bool rest = watch.observe(world_, motion, time());
+    if (viscous == 0) groups.observe(world_, damping_, time());
     report.at_rest = rest && viscous == 0 && world_.hanging() == 0;
     if (viscous > 0 && world_.hanging() == 0 && has_slowed(motion, viscous)) {
       viscous = 0;
       halved_ = true;
       world_.scale_impulses(0.5);
       watch = RestWatch(world_, options_, report.mean_edge, time());
+      groups = RestingGroups(world_, options_, report.mean_edge, time());
     }
   }
   frames.finish(world_, time());
   report.criterion = watch.criterion();
+  if (world_.sleeping() > 0) {
+    report.criterion +=
+        fmt::format("; {} blocks came to rest before, at a tenth of that, and nothing touched them since", world_.sleeping());
+  }
   if (!report.at_rest) report.criterion += "; " + obstacle(watch, viscous);
   report.simulated_time = time();
   report.rms_speed = motion.rms_speed;

@@ -9,17 +9,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "engine/base/check.h"
 #include "engine/base/phases.h"
+#include "engine/mesh/disjoint_sets.h"
+#include "engine/rigid/bullet_pose.h"
 #include "engine/rigid/collision_configuration.h"
 #include "engine/rigid/contact_solver.h"
 #include "engine/rigid/dispatcher.h"
 #include "engine/rigid/mass_properties.h"
 #include "engine/rigid/pair_cache.h"
 #include "engine/rigid/polyhedron_collision.h"
-#include "engine/rigid/polyhedron_shape.h"
+#include "engine/rigid/sleepers.h"
 
 // Bullet's global lengths; the first has no declaration in its headers.
 extern btScalar gDbvtMargin;
@@ -56,25 +59,6 @@ ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& op
   const double scale = length_scale(mesh);
   const double bounce_speed = 2 * options.gravity.norm() * options.step;
   return {0.01 * scale + options.clearance, 0.008 * scale, 2e-3 * scale, bounce_speed, 6e-4 * scale, options.clearance};
-}
-
-btTransform transform_of(const Pose& pose) {
-  const auto& q = pose.rotation;
-  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bullet(pose.translation));
-}
-
-Pose pose_of(const btTransform& transform) {
-  const btQuaternion q = transform.getRotation();
-  return {from_bullet(transform.getOrigin()), Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized()};
-}
-
-Pose inverse(const Pose& pose) {
-  const Eigen::Quaterniond back = pose.rotation.conjugate();
-  return {back * -pose.translation, back};
-}
-
-Pose operator*(const Pose& outer, const Pose& inner) {
-  return {outer * inner.translation, (outer.rotation * inner.rotation).normalized()};
 }
 
 mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
@@ -117,7 +101,9 @@ struct World::Bullet {
         configuration(ranges, static_cast<int>(mesh.blocks.size())),
         flights(mesh, options.release_time > 0),
         homes(mesh.blocks.size(), ranges.home),
-        dispatcher(configuration, flights, homes),
+        sleepers(mesh.blocks.size()),
+        dispatcher(configuration, flights, homes, sleepers),
+        boxes(mesh.blocks.size()),
         world(&dispatcher, &broadphase, nullptr, &configuration) {
     gDbvtMargin = ranges.near;
     gContactBreakingThreshold = ranges.near;
@@ -127,11 +113,13 @@ struct World::Bullet {
   CollisionConfiguration configuration;
   Flights flights;
   Homes homes;
+  Sleepers sleepers;
   Dispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase{&pairs};
   ContactSolver solver;
-  btDiscreteDynamicsWorld world;  // only of its bodies and their pairs; steps are made here
+  std::vector<std::array<btVector3, 2>> boxes;  // of each block, on its way through the step [m]
+  btDiscreteDynamicsWorld world;                // only of its bodies and their pairs; steps are made here
 
   [[nodiscard]] std::span<btPersistentManifold* const> manifolds() {
     return {dispatcher.getInternalManifoldPointer(), static_cast<std::size_t>(dispatcher.getNumManifolds())};
@@ -190,9 +178,10 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   item.size = size_of(mesh, mesh.blocks[block]);
   item.body = std::make_unique<btRigidBody>(info);
   item.body->setUserIndex(static_cast<int>(block.index()));
-  // Rest is a matter of speed and forces; a body is never put to sleep.
+  // Bullet's own sleeping, which asks for speeds only, is not used.
   item.body->setActivationState(DISABLE_DEACTIVATION);
   if (owner.fixed) {
+    bullet_->sleepers.fix(item.body->getUserIndex());
     bullet_->world.addRigidBody(item.body.get());
   } else {
     item.body->setLinearVelocity(to_bullet(owner.velocity));
@@ -242,15 +231,18 @@ void World::step(double time_step, int iterations) {
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       btRigidBody& body = *free_bodies_[i];
+      if (asleep(free_[i])) continue;
       bullet_->homes.look(body, items_[body.getUserIndex()].radius, time_step);
       body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
     }
   });
   find_contacts(time_step);
-  bullet_->solver.solve(free_bodies_, bullet_->manifolds(),
+  if (bullet_->sleepers.count() > 0) wake_what_is_touched();
+  bullet_->solver.solve(free_bodies_, bullet_->sleepers, bullet_->manifolds(),
                         {time_step, overlap_undone, bullet_->ranges.bounce_speed, bullet_->ranges.clearance}, iterations);
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (asleep(free_[i])) continue;
       btTransform next;
       free_bodies_[i]->predictIntegratedTransform(time_step, next);
       free_bodies_[i]->proceedToTransform(next);
@@ -261,18 +253,69 @@ void World::step(double time_step, int iterations) {
 // As btCollisionWorld::performDiscreteCollisionDetection does it, with the boxes worked out on all threads.
 void World::find_contacts(double time_step) {
   btCollisionObjectArray& objects = bullet_->world.getCollisionObjectArray();
-  std::vector<std::array<btVector3, 2>> boxes(static_cast<std::size_t>(objects.size()));
-  for_short_chunks(boxes.size(), [&](Chunk chunk) {
+  for_short_chunks(static_cast<std::size_t>(objects.size()), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      boxes[i] = swept_box(*objects[static_cast<int>(i)], bullet_->ranges.near);
+      const btCollisionObject& object = *objects[static_cast<int>(i)];
+      const int block = object.getUserIndex();
+      if (!bullet_->sleepers.asleep(block)) bullet_->boxes[block] = swept_box(object, bullet_->ranges.near);
     }
   });
+  // Those of sleeping blocks, too, or Bullet would move them to another tree of boxes, and back when they wake.
   for (int i = 0; i < objects.size(); ++i) {
-    bullet_->broadphase.setAabb(objects[i]->getBroadphaseHandle(), boxes[i][0], boxes[i][1], &bullet_->dispatcher);
+    const auto& [least, largest] = bullet_->boxes[objects[i]->getUserIndex()];
+    bullet_->broadphase.setAabb(objects[i]->getBroadphaseHandle(), least, largest, &bullet_->dispatcher);
   }
   bullet_->broadphase.calculateOverlappingPairs(&bullet_->dispatcher);
   bullet_->world.getDispatchInfo().m_timeStep = time_step;
   bullet_->dispatcher.dispatchAllCollisionPairs(&bullet_->pairs, bullet_->world.getDispatchInfo(), &bullet_->dispatcher);
+}
+
+void World::wake_what_is_touched() {
+  Sleepers& sleepers = bullet_->sleepers;
+  for (const btPersistentManifold* manifold : bullet_->manifolds()) {
+    if (manifold->getNumContacts() == 0) continue;
+    const int first = manifold->getBody0()->getUserIndex(), second = manifold->getBody1()->getUserIndex();
+    if (sleepers.asleep(first) && !sleepers.still(second)) sleepers.wake(first);
+    if (sleepers.asleep(second) && !sleepers.still(first)) sleepers.wake(second);
+  }
+}
+
+std::vector<std::vector<BlockId>> World::touching_groups() const {
+  mesh::DisjointSets sets(items_.size());
+  for (const btPersistentManifold* manifold : bullet_->manifolds()) {
+    const int first = manifold->getBody0()->getUserIndex(), second = manifold->getBody1()->getUserIndex();
+    if (manifold->getNumContacts() == 0 || items_[first].mass == 0 || items_[second].mass == 0) continue;
+    sets.join(static_cast<std::size_t>(first), static_cast<std::size_t>(second));
+  }
+  std::vector<BlockId> awake;
+  std::copy_if(free_.begin(), free_.end(), std::back_inserter(awake), [this](BlockId block) { return !asleep(block); });
+  std::vector<std::vector<BlockId>> groups;
+  for (const auto& members : sets.groups(awake, [&](std::size_t i) { return awake[i].index(); })) {
+    std::vector<BlockId>& group = groups.emplace_back();
+    for (const std::size_t i : members) group.push_back(awake[i]);
+  }
+  return groups;
+}
+
+void World::put_to_sleep(const std::vector<BlockId>& group) {
+  std::vector<int> blocks;
+  const btVector3 zero(0, 0, 0);
+  for (const BlockId block : group) {
+    btRigidBody& body = *items_[block.index()].body;
+    body.setLinearVelocity(zero);
+    body.setAngularVelocity(zero);
+    body.setInterpolationWorldTransform(body.getWorldTransform());
+    blocks.push_back(body.getUserIndex());
+  }
+  bullet_->sleepers.put_to_sleep(blocks);
+}
+
+std::size_t World::sleeping() const {
+  return bullet_->sleepers.count();
+}
+
+bool World::asleep(BlockId block) const {
+  return bullet_->sleepers.asleep(block.value());
 }
 
 std::size_t World::block_count() const {

@@ -31,6 +31,14 @@ class World {
   [[nodiscard]] std::size_t block_count() const;
   [[nodiscard]] int flying() const;  // bodies whose blocks still fly as one (flights.h)
 
+  // The groups into which those of the free blocks that are awake fall if blocks that touch belong together.
+  [[nodiscard]] std::vector<std::vector<BlockId>> touching_groups() const;
+  // Keeps blocks that touch each other and no other free block where they are, as if they were fixed, until another block
+  // touches one of them.
+  void put_to_sleep(const std::vector<BlockId>& group);
+  [[nodiscard]] bool asleep(BlockId block) const;
+  [[nodiscard]] std::size_t sleeping() const;  // blocks
+
   // The free blocks that were let go and are still in the scene, and their bodies in the same order.
   [[nodiscard]] const std::vector<BlockId>& free_blocks() const { return free_; }
   [[nodiscard]] const std::vector<btRigidBody*>& free_bodies() const { return free_bodies_; }
@@ -54,6 +62,7 @@ class World {
   struct Item;
   void sort_from_the_rim_up(const Eigen::Vector3d& gravity);
   void find_contacts(double time_step);
+  void wake_what_is_touched();
   void add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material);
 
   std::unique_ptr<Bullet> bullet_;
