@@ -8,6 +8,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "engine/base/file_parts.h"
+
 namespace scree {
 
 // Calls `write` with a temporary name beside `file`, flushes it to disk and renames it to `file`. Of a symbolic link what it
@@ -15,9 +17,9 @@ namespace scree {
 // no regular file (a device, a pipe); the old `file` is then untouched.
 void write_atomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
 
-// The same for text, and for parts of it that are not put together first.
+// The same for parts that are not put together first, and for text.
+void write_atomically(const std::filesystem::path& file, std::span<const std::string_view> parts, Way way);
 void write_text(const std::filesystem::path& file, std::string_view text);
-void write_text(const std::filesystem::path& file, std::span<const std::string_view> parts);
 
 // What to say of a file that could not be written, for the system's error.
 std::string not_written(const std::filesystem::path& file, std::error_code reason);

@@ -61,25 +61,22 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
 }
 
 void Series::share(const Grid& grid, const std::vector<Array>& cells) {
-  shared_grid_ = encoded(grid);
-  encode(cells, shared_cells_);
+  shared_ = encoded(grid, cells);
 }
 
 void Series::write(const Frame& frame) {
-  append(frame, shared_grid_, shared_cells_);
+  append(frame, shared_);
 }
 
 void Series::write(const Grid& grid, const Frame& frame) {
-  append(frame, encoded(grid), {});
+  append(frame, encoded(grid, {}));
 }
 
-void Series::append(const Frame& frame, const EncodedGrid& grid, const EncodedArrays& shared_cells) {
+void Series::append(const Frame& frame, const EncodedGrid& grid) {
   SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
   SeriesEntry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
   const fs::path file = directory_ / entry.file;
-  encode(frame.points, point_arrays_);
-  encode(frame.cells, cell_arrays_);
-  write_vtu(file, {grid, point_arrays_, cell_arrays_, shared_cells, frame.time});
+  write_vtu(file, grid, frame, scratch_);
   entries_.push_back(std::move(entry));
   try {
     write_index(index_, entries_);

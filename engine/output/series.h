@@ -41,11 +41,10 @@ class Series {
   std::filesystem::path index_;
   std::string name_;
   std::vector<SeriesEntry> entries_;
-  EncodedGrid shared_grid_;
-  EncodedArrays shared_cells_;
-  EncodedArrays point_arrays_, cell_arrays_;  // of the frame that is written; they keep their memory for the next
+  EncodedGrid shared_;
+  EncodedArrays scratch_;
 
-  void append(const Frame& frame, const EncodedGrid& grid, const EncodedArrays& shared_cells);
+  void append(const Frame& frame, const EncodedGrid& grid);
 };
 
 }  // namespace scree::output

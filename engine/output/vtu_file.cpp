@@ -19,6 +19,8 @@ namespace scree::output {
 namespace {
 
 constexpr std::size_t bytes_in_block = 1 << 16;
+constexpr std::size_t worth_pages = 1 << 16;  // of bytes that frames share: the ends of pages add at most 12 kB
+constexpr std::size_t arrays_of_grid = 4;
 
 // As in vtkCellType.h.
 struct VtkCell {
@@ -46,25 +48,23 @@ VtkCell vtk_cell(CellType type) {
   std::abort();
 }
 
-void append_numbers(const std::vector<std::uint64_t>& numbers, std::string& bytes) {
-  bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof numbers[0]);
-}
-
-// The values of one array, compressed.
-void append_values(const void* values, std::size_t size, std::string& bytes) {
+// The values of one array, compressed where they will stand.
+void append_values(const void* values, std::size_t size, PageBuffer& bytes) {
   const std::size_t blocks = (size + bytes_in_block - 1) / bytes_in_block;
-  append_numbers({blocks, bytes_in_block, size % bytes_in_block}, bytes);
-  std::size_t its_size = bytes.size();  // where the compressed size of the block stands
-  append_numbers(std::vector<std::uint64_t>(blocks), bytes);
-  std::array<char, LZ4_COMPRESSBOUND(bytes_in_block)> packed;
-  for (std::size_t at = 0; at < size; at += bytes_in_block, its_size += sizeof(std::uint64_t)) {
+  std::vector<std::uint64_t> head{blocks, bytes_in_block, size % bytes_in_block};
+  const std::size_t start = bytes.size();
+  const std::size_t head_size = (head.size() + blocks) * sizeof head[0];
+  bytes.room(head_size);
+  bytes.grow(head_size);
+  for (std::size_t at = 0; at < size; at += bytes_in_block) {
     const auto count = static_cast<int>(std::min(bytes_in_block, size - at));
-    const int taken = LZ4_compress_default(static_cast<const char*>(values) + at, packed.data(), count, packed.size());
+    constexpr int most = LZ4_COMPRESSBOUND(bytes_in_block);
+    const int taken = LZ4_compress_default(static_cast<const char*>(values) + at, bytes.room(most), count, most);
     SCREE_ENSURE(taken > 0);
-    const auto recorded = static_cast<std::uint64_t>(taken);
-    std::memcpy(bytes.data() + its_size, &recorded, sizeof recorded);
-    bytes.append(packed.data(), recorded);
+    bytes.grow(static_cast<std::size_t>(taken));
+    head.push_back(static_cast<std::uint64_t>(taken));
   }
+  std::memcpy(bytes.data() + start, head.data(), head_size);
 }
 
 template <class T>
@@ -80,8 +80,17 @@ void append_array(const std::string& name, int components, const T* values, std:
   append_values(values, count * sizeof(T), encoded.bytes);
 }
 
+void append_arrays(const std::vector<Array>& arrays, EncodedArrays& encoded) {
+  for (const Array& array : arrays) {
+    std::visit([&](const auto& values) { append_array(array.name, array.components, values.data(), values.size(), encoded); },
+               array.values);
+  }
+}
+
+using Entries = std::span<const EncodedArrays::Entry>;
+
 // What the XML says of arrays whose bytes begin at `start` of the appended section.
-std::string elements(std::span<const EncodedArrays::Entry> entries, std::uint64_t start) {
+std::string elements(Entries entries, std::uint64_t start) {
   std::string text;
   for (const EncodedArrays::Entry& entry : entries) {
     text += fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)", entry.type,
@@ -98,21 +107,30 @@ constexpr std::string_view opening =
     "<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA \"raw\">]>\n"
     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
     "compressor=\"vtkLZ4DataCompressor\">\n<UnstructuredGrid>\n";
-constexpr std::string_view before_bytes = "</Piece>\n</UnstructuredGrid>\n<AppendedData>_";
+constexpr std::string_view before_bytes = "<AppendedData>_";
 constexpr std::string_view after_bytes = "\n</AppendedData>\n</VTKFile>\n";
+
+// All before the appended section, where the bytes of the frame's own arrays stand behind those of the grid.
+std::string xml(const EncodedGrid& grid, const Frame& frame, Entries own) {
+  const Entries shared(grid.arrays.entries);
+  const std::uint64_t start = grid.arrays.bytes.size();
+  std::string text(opening);
+  // ParaView shows this as the time of a .vtu opened on its own.
+  text += fmt::format(
+      R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray>)", frame.time);
+  text += "</FieldData>\n";
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points, grid.cells);
+  text += fmt::format("<PointData>\n{}</PointData>\n", elements(own.first(frame.points.size()), start));
+  text += fmt::format("<CellData>\n{}", elements(own.subspan(frame.points.size()), start));
+  text += fmt::format("{}</CellData>\n", elements(shared.subspan(arrays_of_grid), 0));
+  text += fmt::format("<Points>\n{}</Points>\n", elements(shared.first(1), 0));
+  text += fmt::format("<Cells>\n{}</Cells>\n", elements(shared.subspan(1, arrays_of_grid - 1), 0));
+  return text + "</Piece>\n</UnstructuredGrid>\n";
+}
 
 }  // namespace
 
-void encode(const std::vector<Array>& arrays, EncodedArrays& encoded) {
-  encoded.entries.clear();
-  encoded.bytes.clear();
-  for (const Array& array : arrays) {
-    std::visit([&](const auto& values) { append_array(array.name, array.components, values.data(), values.size(), encoded); },
-               array.values);
-  }
-}
-
-EncodedGrid encoded(const Grid& grid) {
+EncodedGrid encoded(const Grid& grid, const std::vector<Array>& cells) {
   std::vector<std::int32_t> ends;
   std::vector<std::uint8_t> types;
   std::int32_t end = 0;
@@ -128,28 +146,27 @@ EncodedGrid encoded(const Grid& grid) {
   append_array("connectivity", 1, grid.connectivity.data(), grid.connectivity.size(), made.arrays);
   append_array("offsets", 1, ends.data(), ends.size(), made.arrays);
   append_array("types", 1, types.data(), types.size(), made.arrays);
+  append_arrays(cells, made.arrays);
+  made.whole_pages = made.arrays.bytes.size() >= worth_pages;
+  if (made.whole_pages) made.arrays.bytes.fill_page(0, '\0');
   return made;
 }
 
-void write_vtu(const std::filesystem::path& file, const EncodedFrame& frame) {
-  std::uint64_t start = 0;
-  const auto next = [&](const EncodedArrays& arrays) { return std::exchange(start, start + arrays.bytes.size()); };
-  const std::span grid_entries(frame.grid.arrays.entries);
-  const std::uint64_t grid_start = next(frame.grid.arrays);
-  std::string head(opening);
-  // ParaView shows this as the time of a .vtu opened on its own.
-  head += fmt::format(
-      R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray>)", frame.time);
-  head += "</FieldData>\n";
-  head += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", frame.grid.points, frame.grid.cells);
-  head += fmt::format("<PointData>\n{}</PointData>\n", elements(frame.points.entries, next(frame.points)));
-  head += fmt::format("<CellData>\n{}", elements(frame.cells.entries, next(frame.cells)));
-  head += fmt::format("{}</CellData>\n", elements(frame.more_cells.entries, next(frame.more_cells)));
-  head += fmt::format("<Points>\n{}</Points>\n", elements(grid_entries.first(1), grid_start));
-  head += fmt::format("<Cells>\n{}</Cells>\n", elements(grid_entries.subspan(1), grid_start));
-  head += before_bytes;
-  write_text(file, std::array<std::string_view, 6>{head, frame.grid.arrays.bytes, frame.points.bytes, frame.cells.bytes,
-                                                   frame.more_cells.bytes, after_bytes});
+void write_vtu(const std::filesystem::path& file, const EncodedGrid& grid, const Frame& frame, EncodedArrays& scratch) {
+  scratch.entries.clear();
+  scratch.bytes.clear();
+  append_arrays(frame.points, scratch);
+  append_arrays(frame.cells, scratch);
+  PageBuffer head;
+  head.append(xml(grid, frame, scratch.entries));
+  if (grid.whole_pages) {  // so that all parts begin and end with a page
+    head.fill_page(before_bytes.size(), ' ');
+    scratch.bytes.fill_page(after_bytes.size(), '\0');
+  }
+  head.append(before_bytes);
+  scratch.bytes.append(after_bytes);
+  write_atomically(file, std::array{head.view(), grid.arrays.bytes.view(), scratch.bytes.view()},
+                   grid.whole_pages ? Way::direct : Way::cached);
 }
 
 }  // namespace scree::output

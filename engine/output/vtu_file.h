@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/page_buffer.h"
 #include "engine/output/frame.h"
 
 namespace scree::output {
@@ -22,30 +23,20 @@ struct EncodedArrays {
     std::uint64_t offset;  // of its first byte in `bytes`
   };
   std::vector<Entry> entries;
-  std::string bytes;
+  PageBuffer bytes;
 };
 
-// In place of what `encoded` held, in its memory.
-void encode(const std::vector<Array>& arrays, EncodedArrays& encoded);
-
+// What frames share. If it is large, it fills whole pages, and then files are laid out so that they can be written directly
+// from where it is.
 struct EncodedGrid {
   std::size_t points = 0;
   std::size_t cells = 0;
-  EncodedArrays arrays;  // points, connectivity, offsets, types
+  EncodedArrays arrays;  // points, connectivity, offsets, types, and then those of the cells
+  bool whole_pages = false;
 };
-EncodedGrid encoded(const Grid& grid);
+EncodedGrid encoded(const Grid& grid, const std::vector<Array>& cells);
 
-// Arrays as encode() makes them.
-struct EncodedFrame {
-  const EncodedGrid& grid;
-  const EncodedArrays& points;
-  const EncodedArrays& cells;
-  const EncodedArrays& more_cells;
-  double time = 0;  // [s]
-};
-
-// Written part by part: putting together some megabytes first would cost more than all else of a frame. Throws RunError, and
-// leaves no file.
-void write_vtu(const std::filesystem::path& file, const EncodedFrame& frame);
+// Throws RunError, and leaves no file. `scratch` keeps its memory from frame to frame.
+void write_vtu(const std::filesystem::path& file, const EncodedGrid& grid, const Frame& frame, EncodedArrays& scratch);
 
 }  // namespace scree::output

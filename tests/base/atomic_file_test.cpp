@@ -1,13 +1,18 @@
 #include "engine/base/atomic_file.h"
 
+#include <array>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include <sys/stat.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "engine/base/check.h"
+#include "engine/base/page_buffer.h"
+#include "tests/file_limit.h"
 #include "tests/temp_folder.h"
 
 namespace scree {
@@ -72,6 +77,62 @@ TEST_F(AtomicFiles, TakeNoPlaceOfADeviceAPipeOrAFolder) {
     EXPECT_THAT(refusal(place), HasSubstr("could not be written (it is no regular file). Choose another place"));
   }
   EXPECT_TRUE(std::filesystem::is_fifo(file("pipe")));
+}
+
+// The parts as they stand in memory, one behind the other, are what must be found, whichever way they go.
+TEST_F(AtomicFiles, HoldTheirPartsOneBehindTheOtherOnEitherWay) {
+  PageBuffer first, second;
+  for (int i = 0; i < 100'000; ++i) first.append(fmt::format("{} ", i));
+  first.fill_page(0, '.');
+  second.append("some more");
+  second.fill_page(4, '.');
+  second.append("end\n");
+  const std::string whole = std::string(first.view()) + std::string(second.view());
+  EXPECT_EQ(whole.size() % PageBuffer::page, 0u);
+  for (const Way way : {Way::cached, Way::direct}) {
+    write_atomically(file("pages"), std::array{first.view(), second.view()}, way);
+    EXPECT_EQ(contents(file("pages")), whole);
+  }
+}
+
+TEST_F(AtomicFiles, TakePartsThatAreNoWholePagesOnEitherWay) {
+  PageBuffer pages;
+  pages.fill_page(1, 'p');
+  pages.append("p");
+  const std::string some(10'000, 's');
+  const std::array<std::string_view, 5> parts{"", pages.view(), "odd", std::string_view(some).substr(1), pages.view()};
+  std::string whole;
+  for (const std::string_view part : parts) whole += part;
+  for (const Way way : {Way::cached, Way::direct}) {
+    write_atomically(file("odd"), parts, way);
+    EXPECT_EQ(contents(file("odd")), whole);
+  }
+}
+
+// /dev/shm is kept in memory: there is no disk to write to directly.
+TEST_F(AtomicFiles, AreWrittenWhereThereIsNoDisk) {
+  std::string name = "/dev/shm/scree-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) GTEST_SKIP() << "no /dev/shm";
+  PageBuffer pages;
+  pages.fill_page(1, 'p');
+  pages.append("p");
+  write_atomically(name + "/a", std::array{pages.view()}, Way::direct);
+  EXPECT_EQ(contents(name + "/a"), pages.view());
+  std::filesystem::remove_all(name);
+}
+
+// 5000 is within a page, where writing directly cannot end.
+TEST_F(AtomicFiles, TellOfAFullDiskAndLeaveNothingOnEitherWay) {
+  PageBuffer pages;
+  for (int i = 0; i < 10; ++i) pages.append(std::string(PageBuffer::page, 'p'));
+  for (const Way way : {Way::cached, Way::direct}) {
+    for (const std::size_t bytes : {std::size_t{0}, 2 * PageBuffer::page, std::size_t{5000}, pages.size() - 1}) {
+      const test::FileLimit limit(bytes);
+      EXPECT_THAT([&] { write_atomically(file("a"), std::array{pages.view()}, way); },
+                  testing::ThrowsMessage<RunError>(HasSubstr("could not be written (File too large)")));
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(file("")));
 }
 
 TEST_F(AtomicFiles, TellWhyTheyCannotBeWritten) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/check.h"
-#include "tests/output/file_limit.h"
+#include "tests/file_limit.h"
 #include "tests/output/support.h"
 
 namespace scree::output {
@@ -63,7 +63,7 @@ TEST_F(ProbeTableTest, AFullDiskLeavesTheTableAsItWas) {
   table.append(0, {1});
   const std::string before = content(file_);
   {
-    const FileLimit limit(before.size() + 5);
+    const test::FileLimit limit(before.size() + 5);
     EXPECT_THROW(table.append(600, {299.123456789}), RunError);
   }
   EXPECT_EQ(content(file_), before);

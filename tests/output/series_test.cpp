@@ -17,7 +17,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "engine/base/check.h"
-#include "tests/output/file_limit.h"
+#include "engine/base/page_buffer.h"
+#include "tests/file_limit.h"
 #include "tests/output/support.h"
 
 namespace scree::output {
@@ -142,6 +143,33 @@ TEST_F(SeriesTest, VtkReadsBackWhatWasWrittenToTheBit) {
   expect_equal(data->GetCellData()->GetArray("heat_flux"), written.cells[0]);
   expect_equal(data->GetCellData()->GetArray("block"), written.cells[1]);
   EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 1.0 / 3);
+}
+
+// From some size on, files are laid out in whole pages.
+TEST_F(SeriesTest, VtkReadsBackLargeFramesOfASharedGridToTheBit) {
+  const auto mesh = random_tets(3000);
+  const Frame all = frame_of(mesh, 7);
+  Series series(folder_.path(), "heat");
+  series.share(make_grid(mesh), {all.cells[1]});
+  series.write({6, {}, {}});
+  series.write({7, all.points, {all.cells[0]}});
+  for (const char* file : {"heat_000000.vtu", "heat_000001.vtu"}) {
+    const auto data = read_back(data_ / file);
+    ASSERT_EQ(data->GetNumberOfPoints(), 12000);
+    ASSERT_EQ(data->GetNumberOfCells(), 3000);
+    for (const NodeId node : mesh.nodes.ids()) ASSERT_EQ(Point<3>(data->GetPoint(node.value())), mesh.nodes[node]);
+    for (const ElementId element : mesh.elements.ids()) {
+      for (int i = 0; i < 4; ++i) {
+        ASSERT_EQ(data->GetCell(element.value())->GetPointId(i), mesh.elements[element][i].value());
+      }
+    }
+    expect_equal(data->GetCellData()->GetArray("block"), all.cells[1]);
+    EXPECT_EQ(fs::file_size(data_ / file) % PageBuffer::page, 0u);
+  }
+  const auto last = read_back(data_ / "heat_000001.vtu");
+  expect_equal(last->GetPointData()->GetArray("temperature"), all.points[0]);
+  expect_equal(last->GetCellData()->GetArray("heat_flux"), all.cells[0]);
+  EXPECT_EQ(last->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 7);
 }
 
 TEST_F(SeriesTest, CellsAreShownAndNotTheirSimplices) {
@@ -296,17 +324,21 @@ TEST_F(SeriesTest, ASeriesWithoutItsIndexOrItsLastFrameIsNotGoneOnWithAndStays) 
 }
 
 TEST_F(SeriesTest, AFullDiskIsAnErrorAndLeavesTheSeriesAsItWas) {
-  Series series(folder_.path(), "heat");
-  write_frames(series, {0});
-  const std::string before = content(pvd_);
-  for (const std::size_t bytes : {std::size_t{100}, fs::file_size(data_ / "heat_000000.vtu") - 1}) {
-    const FileLimit limit(bytes);
-    EXPECT_THROW(write_frames(series, {1}), RunError);
+  for (const int blocks : {50, 3000}) {
+    mesh_ = random_tets(blocks);
+    grid_ = make_grid(mesh_);
+    Series series(folder_.path(), "heat");
+    write_frames(series, {0});
+    const std::string before = content(pvd_);
+    for (const std::size_t bytes : {std::size_t{100}, fs::file_size(data_ / "heat_000000.vtu") - 1}) {
+      const test::FileLimit limit(bytes);
+      EXPECT_THROW(write_frames(series, {1}), RunError);
+    }
+    EXPECT_EQ(content(pvd_), before);
+    EXPECT_THAT(files_in(data_), ElementsAre("heat_000000.vtu"));
+    write_frames(series, {1});
+    EXPECT_THAT(times_of(pvd_), ElementsAre(0, 1));
   }
-  EXPECT_EQ(content(pvd_), before);
-  EXPECT_THAT(files_in(data_), ElementsAre("heat_000000.vtu"));
-  write_frames(series, {1});
-  EXPECT_THAT(times_of(pvd_), ElementsAre(0, 1));
 }
 
 TEST_F(SeriesTest, AFolderThatCannotBeMadeIsAnErrorThatNamesTheSeries) {

@@ -6,7 +6,7 @@
 
 #include <sys/resource.h>
 
-namespace scree::output {
+namespace scree::test {
 
 // While it lives, no file can grow beyond `bytes`: the system refuses the write as it does on a full disk.
 class FileLimit {
@@ -28,4 +28,4 @@ class FileLimit {
   rlimit before_{};
 };
 
-}  // namespace scree::output
+}  // namespace scree::test
