@@ -37,6 +37,19 @@ TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& c
   return difference;
 }
 
+// T1 - T2 [K] itself, from the temperatures of the mesh's nodes: without making the weights first, for a frame asks for that of
+// every contact. Entries that are not used have a node, and weight zero.
+template <int dim>
+double temperature_drop(const contact::Contact<dim>& contact, JointForm form, const Eigen::VectorXd& temperature) {
+  const auto add = [&](const contact::Stencil<dim>& side, double sign, double sum) {
+    for (int i = 0; i < dim; ++i) sum += sign * side.weights[i] * temperature[side.nodes[i].value()];
+    return sum;
+  };
+  const bool as_found = form == JointForm::consistent;
+  const double owner = as_found ? add(contact.on_owner, 1, 0) : add(contact::literal_owner(contact), 1, 0);
+  return add(contact.on_target, -1, owner);
+}
+
 // What the two sides of a contact have to do with how well it conducts.
 struct ContactSides {
   double mean_conductivity = 0;  // k_b of eq. (11) [W/m/K]
