@@ -1,5 +1,7 @@
 // The restart file: HDF5, one data set per vector, the rest as two lists, and a digest of it all, so that a damaged file is
 // noticed.
+#include <span>
+
 #include <H5Cpp.h>
 #include <fmt/format.h>
 
@@ -18,11 +20,15 @@ constexpr const char* format_name = "scree heat state 6";
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
 
-// A state as plain lists.
+// A state as plain lists: when it is written, the long ones stay where they are.
+template <class Values>
 struct Lists {
-  Doubles temperature, error, lumping, by_boundary, by_applied, by_surroundings, numbers;
+  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings;
+  Doubles numbers;
   Counts counts;
 };
+using ReadLists = Lists<Doubles>;
+using WrittenLists = Lists<std::span<const double>>;
 
 // Calls use(name, list) for all of them, in the order in which they are written.
 template <class SomeLists, class Use>
@@ -37,15 +43,15 @@ void for_each_list(SomeLists& lists, const Use& use) {
   use("counts", lists.counts);
 }
 
-Doubles list_of(const Eigen::VectorXd& vector) {
-  return {vector.begin(), vector.end()};
+std::span<const double> list_of(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
 
 Eigen::VectorXd vector_of(const Doubles& list) {
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
-Lists pack(const HeatState& state) {
+WrittenLists pack(const HeatState& state) {
   const Ledger& ledger = state.ledger;
   return {list_of(state.temperature),
           list_of(state.error),
@@ -59,7 +65,7 @@ Lists pack(const HeatState& state) {
           {state.steps, state.rejected_steps, state.factorisations}};
 }
 
-HeatState unpack(const Lists& lists) {
+HeatState unpack(const ReadLists& lists) {
   HeatState state;
   state.temperature = vector_of(lists.temperature);
   state.error = vector_of(lists.error);
@@ -83,7 +89,8 @@ HeatState unpack(const Lists& lists) {
   return state;
 }
 
-std::string digest(const std::string& key, const Lists& lists) {
+template <class SomeLists>
+std::string digest(const std::string& key, const SomeLists& lists) {
   Hasher hasher;
   hasher.add(key);
   for_each_list(lists, [&](const char*, const auto& list) {
@@ -103,13 +110,14 @@ const H5::PredType& type_of<std::int64_t>() {
   return H5::PredType::NATIVE_INT64;
 }
 
-template <class T>
-void put(H5::H5File& file, const char* name, const std::vector<T>& list) {
+template <class List>
+void put(H5::H5File& file, const char* name, const List& list) {
+  const auto& type = type_of<typename List::value_type>();
   const hsize_t size = list.size();
   // The same state is the same file, whenever it is written.
   H5::DSetCreatPropList timeless;
   H5Pset_obj_track_times(timeless.getId(), false);
-  file.createDataSet(name, type_of<T>(), H5::DataSpace(1, &size), timeless).write(list.data(), type_of<T>());
+  file.createDataSet(name, type, H5::DataSpace(1, &size), timeless).write(list.data(), type);
 }
 
 template <class T>
@@ -143,7 +151,7 @@ void write(const HeatState& state, const std::string& key, const std::filesystem
   H5::Exception::dontPrint();
   write_atomically(file, [&](const std::filesystem::path& temporary) {
     try {
-      const Lists lists = pack(state);
+      const WrittenLists lists = pack(state);
       H5::H5File out(temporary.string(), H5F_ACC_TRUNC);
       put_text(out, "format", format_name);
       put_text(out, "key", key);
@@ -163,7 +171,7 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     const H5::H5File in(file.string(), H5F_ACC_RDONLY);
     if (get_text(in, "format") != format_name) refuse(file, damaged, "Delete it and run the scene from its start");
     const std::string found = get_text(in, "key");
-    Lists lists;
+    ReadLists lists;
     for_each_list(lists, [&](const char* name, auto& list) { get(in, name, list); });
     const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 13 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
