@@ -40,11 +40,9 @@ output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>&
 
 template <int dim>
 output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const std::vector<Point<dim>>& flux) {
-  std::vector<double> components;
-  components.reserve(3 * flux.size());
-  for (const Point<dim>& q : flux) {
-    for (int i = 0; i < 3; ++i) components.push_back(i < dim ? q[i] : 0.0);
-  }
+  std::vector<double> components(3 * flux.size());
+  auto at = components.begin();
+  for (const Point<dim>& q : flux) at = std::copy(q.begin(), q.end(), at) + (3 - dim);
   output::Frame frame{time, {}, {}};
   frame.points.push_back({"temperature", 1, std::vector<double>(temperature.begin(), temperature.end())});
   frame.cells.push_back({"heat_flux", 3, std::move(components)});
