@@ -128,6 +128,16 @@ std::string xml(const EncodedGrid& grid, const Frame& frame, Entries own) {
   return text + "</Piece>\n</UnstructuredGrid>\n";
 }
 
+// Room for all of it at once: memory that is not touched costs nothing, and growing would hold much of it twice.
+void make_room(const Grid& grid, const std::vector<Array>& cells, PageBuffer& bytes) {
+  std::size_t size = grid.points.size() * sizeof(Eigen::Vector3d) + grid.connectivity.size() * sizeof(std::int32_t) +
+                     grid.types.size() * (sizeof(std::int32_t) + sizeof(std::uint8_t));
+  for (const Array& array : cells) {
+    std::visit([&](const auto& values) { size += values.size() * sizeof values[0]; }, array.values);
+  }
+  bytes.room(size + size / 128 + 2 * bytes_in_block);  // what LZ4 makes of numbers that it cannot compress
+}
+
 }  // namespace
 
 EncodedGrid encoded(const Grid& grid, const std::vector<Array>& cells) {
@@ -141,6 +151,7 @@ EncodedGrid encoded(const Grid& grid, const std::vector<Array>& cells) {
   }
   SCREE_EXPECT(static_cast<std::size_t>(end) == grid.connectivity.size());
   EncodedGrid made{grid.points.size(), grid.types.size(), {}};
+  make_room(grid, cells, made.arrays.bytes);
   const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
   append_array("Points", 3, coordinates, 3 * grid.points.size(), made.arrays);
   append_array("connectivity", 1, grid.connectivity.data(), grid.connectivity.size(), made.arrays);
