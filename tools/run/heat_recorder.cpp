@@ -18,6 +18,10 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
                       : output::ProbeTable(files.probes(), comments, columns);
 }
 
+// Of wall time that a run which is killed may have to compute again. Short runs write many frames in a second, and to write
+// this file takes as long as a frame of temperatures.
+constexpr std::chrono::seconds longest_unsaved{1};
+
 // At the multiples of the frames' interval, and at the end.
 bool frame_due(const Scene& scene, double time) {
   const double every = scene.frames_every;
@@ -58,6 +62,16 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
   if (!pile.probes.empty()) table_.emplace(open_table(files, pile, resumed_from));
 }
 
+// What stops the run is told by whoever stops it, and an older restart file stays what it is.
+template <int dim>
+HeatRecorder<dim>::~HeatRecorder() {
+  try {
+    if (pending_.valid()) pending_.wait();
+    if (unsaved_) save(*unsaved_);
+  } catch (...) {
+  }
+}
+
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   finish();
@@ -78,11 +92,20 @@ void HeatRecorder<dim>::write(const thermal::HeatState& state) {
   if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
   write_frame(temperature, state);
-  if (state.time > 0) {
-    thermal::write(state, pile_.key, restart_);
-  } else {  // a run that starts has nothing to go on from, least of all an earlier run's state
+  if (state.time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
     std::filesystem::remove(restart_);
+  } else if (state.time >= scene_.heat->time.until || std::chrono::steady_clock::now() - saved_ >= longest_unsaved) {
+    save(state);
+  } else {
+    unsaved_ = state;
   }
+}
+
+template <int dim>
+void HeatRecorder<dim>::save(const thermal::HeatState& state) {
+  thermal::write(state, pile_.key, restart_);
+  unsaved_.reset();
+  saved_ = std::chrono::steady_clock::now();
 }
 
 template <int dim>

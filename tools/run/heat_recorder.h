@@ -1,6 +1,7 @@
 // Everything a heated run writes at an output time, in an order that keeps the files consistent whenever the run ends.
 #pragma once
 
+#include <chrono>
 #include <future>
 #include <optional>
 #include <string>
@@ -20,6 +21,10 @@ class HeatRecorder {
   // Starts the files, or goes on with those of a run that reached `resumed_from`.
   HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, const thermal::HeatModel& model,
                std::optional<double> resumed_from);
+  // Writes the restart file, if it is older than the frames: the run was stopped.
+  ~HeatRecorder();
+  HeatRecorder(const HeatRecorder&) = delete;
+  HeatRecorder& operator=(const HeatRecorder&) = delete;
 
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
@@ -31,8 +36,10 @@ class HeatRecorder {
   void finish();
 
  private:
-  // The restart file comes last: it never promises more than the other files hold.
+  // The restart file comes last: it never promises more than the other files hold. It may be some time behind them: a run that
+  // is killed computes that again.
   void write(const thermal::HeatState& state);
+  void save(const thermal::HeatState& state);
   void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
 
   const Scene& scene_;
@@ -44,6 +51,8 @@ class HeatRecorder {
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
   bool space_error_ = false;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the restart file, last
+  std::optional<thermal::HeatState> unsaved_;                                       // of the last frame
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
 
