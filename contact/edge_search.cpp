@@ -37,18 +37,6 @@ unsigned edges_on(const Shell<3>& shell, const std::vector<BlockId>& spring_bloc
   return edges_of_faces[faces];
 }
 
-// Takes up to four pairs from the set, and tells which they are, a bit for each; the others are of no matter.
-unsigned take(EdgePairs& edges, EdgeBounds::Pairs& pairs) {
-  unsigned some = 0;
-  for (int i = 0; i < lane_count && edges != 0; ++i) {
-    const int pair = std::countr_zero(edges);
-    edges &= edges - 1;
-    pairs[i] = {pair / 6, pair % 6};
-    some |= 1u << i;
-  }
-  return some;
-}
-
 }  // namespace
 
 // Asks the semi-edges of two shells about the edges of each other.
@@ -62,20 +50,15 @@ class EdgeSearch::Asking {
     edges &= ~pairs_of_first(edges_on(first, spring_blocks_, second.block));
     edges &= ~pairs_of_second(edges_on(second, spring_blocks_, first.block));
     if (edges == 0) return;
-    const EdgeBounds bounds(first, second, options_.indentation);
-    while (edges != 0) {
-      EdgeBounds::Pairs pairs;
-      const unsigned some = take(edges, pairs);
-      const auto near = bounds.may_touch(pairs);
-      for (std::size_t k = 0; k < 2; ++k) {
-        for (unsigned left = near.of_first[k] & some; left != 0; left &= left - 1) {
-          const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
-          list(first, of_first, k, second, of_second);
-        }
-        for (unsigned left = near.of_second[k] & some; left != 0; left &= left - 1) {
-          const auto& [of_first, of_second] = pairs[std::countr_zero(left)];
-          list(second, of_second, k, first, of_first);
-        }
+    const TouchingEdges touching = touching_edges(first, second, options_.indentation, edges);
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (EdgePairs left = touching.of_first[k]; left != 0; left &= left - 1) {
+        const int pair = std::countr_zero(left);
+        list(first, pair / 6, k, second, pair % 6);
+      }
+      for (EdgePairs left = touching.of_second[k]; left != 0; left &= left - 1) {
+        const int pair = std::countr_zero(left);
+        list(second, pair % 6, k, first, pair / 6);
       }
     }
     constexpr std::size_t many = 32;

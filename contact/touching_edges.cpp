@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <bit>
+
+#include "contact/edge_bounds.h"
+#include "contact/segment.h"
+#include "contact/wide_lanes.h"
+
+namespace scree::contact {
+
+namespace {
+
+SCREE_INLINE LanePoints<3> scaled(const LanePoints<3>& points, float unit) {
+  return {unit * points[0], unit * points[1], unit * points[2]};
+}
+
+// What is asked of an edge of a tetrahedron, a row of three axes each.
+struct EdgeRows {
+  Lanes start;
+  Lanes way;                    // to the end
+  std::array<Lanes, 2> thirds;  // from the start to the third corner of the k-th face beside the edge
+};
+using Edges = std::array<EdgeRows, 6>;
+
+SCREE_INLINE void fill(const LanePoints<3>& vertices, Edges& edges) {
+  const auto at = transposed(vertices[0], vertices[1], vertices[2], Lanes{});
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& [start, end, beside] = element_edges[e];
+    // The face beside one of the two other vertices has the other one as its third corner.
+    edges[e] = {at[start], at[end] - at[start], {at[beside[1]] - at[start], at[beside[0]] - at[start]}};
+  }
+}
+
+// The numbers of both edges by that of their bit in EdgePairs.
+struct EdgePair {
+  std::uint8_t of_first, of_second;
+};
+constexpr std::array<EdgePair, 64> edges_of_pairs = [] {
+  std::array<EdgePair, 64> pairs{};
+  for (unsigned i = 0; i < 36; ++i) pairs[i] = {static_cast<std::uint8_t>(i / 6), static_cast<std::uint8_t>(i % 6)};
+  return pairs;
+}();
+
+// As many pairs of an edge of the first with one of the second as there are lanes.
+template <class Numbers>
+struct SomePairs {
+  std::array<std::uint8_t, count_of<Numbers>> numbers;  // of their bits in EdgePairs
+  std::array<const EdgeRows*, count_of<Numbers>> of_first, of_second;
+};
+
+// Where the lines of some pairs of edges come closest.
+template <class Numbers>
+struct Crossing {
+  Numbers square;                // of the common normal, the cross product of the edges
+  Numbers along_first;           // fraction of the way along the edge of the first, times that square
+  Numbers along_second;          // the same on the edge of the second
+  Points<Numbers> across_first;  // from the edge of the first sideways, in the plane of both
+  Points<Numbers> across_second;
+  Numbers off_first, off_second;  // of along_first and along_second, by rounding
+  unsigned near = 0;              // bit i: the pair i may touch, as far as this tells
+};
+
+// Of some pairs, one bit each, as in TouchingEdges.
+struct TouchingSome {
+  std::array<unsigned, 2> of_first{};
+  std::array<unsigned, 2> of_second{};
+};
+
+// The semi-edges beside the edges of two shells, some pairs of edges at a time. Lengths are in radii of the first, so that
+// their products keep within the range of single precision.
+template <class Numbers>
+class EdgeBounds {
+ public:
+  // The third corner of the face beside an edge is no further from its start than two radii.
+  SCREE_INLINE EdgeBounds(const Shell<3>& first, const Shell<3>& second, const Way<3>& way, float unit, float indentation)
+      : distance_(unit * slack(first, second)),
+        off_(2 * unit * way.rounding),
+        kept_(1 - indentation),
+        moved_(indentation / 3),
+        aside_(2 * moved_ * unit * std::max(first.radius, second.radius)) {
+    fill(scaled(first.at, unit), first_);
+    fill(scaled(vertices_from(second, way), unit), second_);
+  }
+
+  // Takes some pairs from a set; what follows the last of them is of no matter.
+  SCREE_INLINE void take(EdgePairs& set, SomePairs<Numbers>& pairs) const {
+    for (int i = 0; i < count_of<Numbers>; ++i) {
+      pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(set) & 63);
+      const auto [of_first, of_second] = edges_of_pairs[pairs.numbers[i]];
+      pairs.of_first[i] = &first_[of_first];
+      pairs.of_second[i] = &second_[of_second];
+      set &= set - 1;
+    }
+  }
+
+  // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other
+  // edge between the ends of both, seen along the normal: its start is moved by a share of the way along its edge, which moves
+  // it by as much along the edge and not across it, and by the same share of the way to the third corner of its face.
+  SCREE_INLINE void may_touch(const SomePairs<Numbers>& pairs, TouchingSome& touching) const {
+    Crossing<Numbers> lines;
+    cross_lines(pairs, lines);
+    if (lines.near == 0) return;
+    const Numbers moved_along = moved_ * lines.square, kept = kept_ * lines.square;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Points<Numbers> a = columns<Numbers>([&](int i) { return pairs.of_first[i]->thirds[k]; });
+      const Points<Numbers> b = columns<Numbers>([&](int i) { return pairs.of_second[i]->thirds[k]; });
+      const Numbers own_first = lines.along_first - moved_along - moved_ * dot(a, lines.across_second);
+      const Numbers target_second = lines.along_second + moved_ * dot(a, lines.across_first);
+      touching.of_first[k] =
+          lines.near & bits(within(own_first, kept, lines.off_first) & within(target_second, lines.square, lines.off_second));
+      const Numbers own_second = lines.along_second - moved_along - moved_ * dot(b, lines.across_first);
+      const Numbers target_first = lines.along_first + moved_ * dot(b, lines.across_second);
+      touching.of_second[k] =
+          lines.near & bits(within(own_second, kept, lines.off_second) & within(target_first, lines.square, lines.off_first));
+    }
+  }
+
+ private:
+  SCREE_INLINE void cross_lines(const SomePairs<Numbers>& pairs, Crossing<Numbers>& lines) const {
+    const Points<Numbers> a = columns<Numbers>([&](int i) { return pairs.of_first[i]->way; });
+    const Points<Numbers> b = columns<Numbers>([&](int i) { return pairs.of_second[i]->way; });
+    const Points<Numbers> between =
+        columns<Numbers>([&](int i) { return pairs.of_second[i]->start - pairs.of_first[i]->start; });
+    const Points<Numbers> normal = cross(a, b);
+    lines.square = dot(normal, normal);
+    lines.across_first = cross(normal, a);
+    lines.across_second = cross(b, normal);
+    lines.along_first = dot(between, lines.across_second);
+    lines.along_second = -dot(between, lines.across_first);
+    const Numbers a_square = dot(a, a), b_square = dot(b, b), volume = dot(between, normal);
+    const Numbers a_length = root(a_square), b_length = root(b_square), off = off_ * a_length * b_length;
+    lines.off_first = off * b_length;
+    lines.off_second = off * a_length;
+    // Beside the place of the edges that of a semi-edge: its shift from the start times a vector across.
+    const Numbers aside = aside_ * root(lines.square);
+    constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
+    // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
+    const auto near_lines = volume * volume <= 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
+    const auto crossing = lines.square >= least_square * a_square * b_square;
+    lines.near = bits(near_lines & crossing & within(lines.along_first, lines.square, lines.off_first + aside * b_length) &
+                      within(lines.along_second, lines.square, lines.off_second + aside * a_length));
+  }
+
+  Edges first_, second_;
+  float distance_;  // between the lines of edges that touch, at most
+  float off_;       // of a length, by rounding
+  float kept_;      // length of a semi-edge, over that of its edge
+  float moved_;     // share of each corner of its face in a semi-spring
+  float aside_;     // the third corner of a face moves its semi-edges by no more
+};
+
+// Adds to a set those of some pairs whose bits are set.
+template <class Numbers>
+SCREE_INLINE void add(unsigned found, const SomePairs<Numbers>& pairs, EdgePairs& set) {
+  for (; found != 0; found &= found - 1) set |= EdgePairs{1} << pairs.numbers[std::countr_zero(found)];
+}
+
+template <class Numbers>
+SCREE_INLINE void find_touching(const Shell<3>& first, const Shell<3>& second, float indentation, EdgePairs pairs,
+                                TouchingEdges& touching) {
+  const EdgeBounds<Numbers> bounds(first, second, Way<3>(first, second), 1 / first.radius, indentation);
+  while (pairs != 0) {
+    const unsigned asked = (1u << std::min(std::popcount(pairs), count_of<Numbers>)) - 1;
+    SomePairs<Numbers> some;
+    bounds.take(pairs, some);
+    TouchingSome found;
+    bounds.may_touch(some, found);
+    for (std::size_t k = 0; k < 2; ++k) {
+      add(found.of_first[k] & asked, some, touching.of_first[k]);
+      add(found.of_second[k] & asked, some, touching.of_second[k]);
+    }
+  }
+}
+
+#ifdef SCREE_AVX2
+SCREE_AVX2 void find_touching_by_eights(const Shell<3>& first, const Shell<3>& second, float indentation, EdgePairs pairs,
+                                        TouchingEdges& touching) {
+  find_touching<WideLanes>(first, second, indentation, pairs, touching);
+}
+#endif
+
+}  // namespace
+
+TouchingEdges touching_edges(const Shell<3>& first, const Shell<3>& second, double indentation, EdgePairs pairs) {
+  TouchingEdges touching;
+  const auto moved = static_cast<float>(indentation);
+#ifdef SCREE_AVX2
+  if (__builtin_cpu_supports("avx2") != 0) {
+    find_touching_by_eights(first, second, moved, pairs, touching);
+    return touching;
+  }
+#endif
+  find_touching<Lanes>(first, second, moved, pairs, touching);
+  return touching;
+}
+
+}  // namespace scree::contact
