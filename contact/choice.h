@@ -35,11 +35,4 @@ auto best_of(Candidates& candidates, double equal) -> decltype(candidates.data()
   return best;
 }
 
-// An invalid id if there is none.
-template <class Target>
-Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
-  const Candidate<Target>* best = best_of(candidates, equal);
-  return best == nullptr ? Target{} : best->target;
-}
-
 }  // namespace scree::contact

@@ -7,7 +7,6 @@
 
 #include "contact/edge_bounds.h"
 #include "contact/tetrahedron.h"
-#include "contact/touch.h"
 
 namespace scree::contact {
 
@@ -79,7 +78,7 @@ class EdgeSearch::Asking {
       const auto touch = touch_edge(surface_, options_, own, side, target);
       if (!touch || joined_by_springs(own, side, target)) continue;
       const auto semi_edge = static_cast<std::uint32_t>(own.index() * 3 + static_cast<std::size_t>(side));
-      found_.push_back({semi_edge, {target, std::abs(touch->gap), std::abs(touch->along - 0.5)}});
+      found_.push_back({{target, std::abs(touch->gap), std::abs(touch->along - 0.5)}, semi_edge, *touch});
     }
     possible_.clear();
   }
@@ -140,7 +139,7 @@ void EdgeSearch::look_at(std::size_t chunk, const ShellPair<3>& pair) {
   if (edges != 0) near_[chunk].push_back({pair.first_place, pair.second_place, edges});
 }
 
-std::vector<EdgeId> EdgeSearch::targets(const std::vector<FaceId>& spring_targets) {
+std::vector<TakenEdge> EdgeSearch::taken(const std::vector<FaceId>& spring_targets) {
   const std::vector<BlockId> spring_blocks = blocks_of(surface_, spring_targets);
   std::vector<std::vector<Touching>> parts(near_.size());
 #pragma omp parallel for schedule(dynamic)
@@ -158,15 +157,16 @@ std::vector<EdgeId> EdgeSearch::targets(const std::vector<FaceId>& spring_target
   std::vector<Touching> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Touching& a, const Touching& b) { return a.semi_edge < b.semi_edge; });
-  std::vector<EdgeId> targets(surface_.faces.size() * 3);
-  std::vector<Candidate<EdgeId>> candidates;
+  std::vector<TakenEdge> taken;
+  std::vector<Touching> candidates;
   for (std::size_t i = 0; i < all.size();) {
     const std::uint32_t semi_edge = all[i].semi_edge;
     candidates.clear();
-    for (; i < all.size() && all[i].semi_edge == semi_edge; ++i) candidates.push_back(all[i].candidate);
-    targets[semi_edge] = choose(candidates, equal_distance * surface_.lengths[FaceId{semi_edge / 3}]);
+    for (; i < all.size() && all[i].semi_edge == semi_edge; ++i) candidates.push_back(all[i]);
+    const Touching* best = best_of(candidates, equal_distance * surface_.lengths[FaceId{semi_edge / 3}]);
+    taken.push_back({semi_edge, best->target, best->touch});
   }
-  return targets;
+  return taken;
 }
 
 }  // namespace scree::contact

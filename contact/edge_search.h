@@ -8,8 +8,16 @@
 #include "contact/edge_pairs.h"
 #include "contact/find_contacts.h"
 #include "contact/near_shells.h"
+#include "contact/touch.h"
 
 namespace scree::contact {
+
+// A semi-edge that touches, the target it takes, and how.
+struct TakenEdge {
+  std::uint32_t semi_edge;  // of side s of face f: f * 3 + s
+  EdgeId target;
+  EdgeTouch touch;
+};
 
 // Is shown all pairs of shells that are near, then asked.
 class EdgeSearch {
@@ -19,8 +27,8 @@ class EdgeSearch {
   // From any thread, one at a time for each chunk.
   void look_at(std::size_t chunk, const ShellPair<3>& pair);
 
-  // Of side s of face f at f * 3 + s; invalid if it touches nothing. See target_search.h.
-  [[nodiscard]] std::vector<EdgeId> targets(const std::vector<FaceId>& spring_targets);
+  // In the order of the semi-edges. See target_search.h.
+  [[nodiscard]] std::vector<TakenEdge> taken(const std::vector<FaceId>& spring_targets);
 
  private:
   // Two shells and those of their edges that may touch.
@@ -30,9 +38,9 @@ class EdgeSearch {
     EdgePairs edges;
   };
   // A semi-edge (face * 3 + side) and a target edge.
-  struct Touching {
+  struct Touching : Candidate<EdgeId> {
     std::uint32_t semi_edge;
-    Candidate<EdgeId> candidate;
+    EdgeTouch touch;
   };
   class Asking;
 

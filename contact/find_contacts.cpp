@@ -9,7 +9,6 @@
 #include "contact/semi_spring.h"
 #include "contact/surface.h"
 #include "contact/target_search.h"
-#include "contact/touch.h"
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
 
@@ -43,19 +42,20 @@ Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& op
   return contact;
 }
 
-Contact<3> edge_contact(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side, EdgeId target) {
-  const auto touch = touch_edge(surface, options, owner, side, target);
-  const SurfaceEdge& edge = surface.edges[target];
-  const auto weights = semi_edge_weights(side, touch.value().along, options.indentation);
+Contact<3> edge_contact(const Surface<3>& surface, const ContactOptions& options, const TakenEdge& taken) {
+  const FaceId owner{taken.semi_edge / 3};
+  const auto side = static_cast<int>(taken.semi_edge % 3);
+  const SurfaceEdge& edge = surface.edges[taken.target];
+  const auto weights = semi_edge_weights(side, taken.touch.along, options.indentation);
   Contact<3> contact = owned_by<3>(surface, owner, edge.faces[0], weights);
   contact.kind = Kind::edge_edge;
   contact.on_target.nodes = surface.faces[edge.faces[0]].nodes;
   for (int i = 0; i < 3; ++i) {
-    if (contact.on_target.nodes[i] == edge.nodes[0]) contact.on_target.weights[i] = 1 - touch->on_target;
-    if (contact.on_target.nodes[i] == edge.nodes[1]) contact.on_target.weights[i] = touch->on_target;
+    if (contact.on_target.nodes[i] == edge.nodes[0]) contact.on_target.weights[i] = 1 - taken.touch.on_target;
+    if (contact.on_target.nodes[i] == edge.nodes[1]) contact.on_target.weights[i] = taken.touch.on_target;
   }
   contact.area = semi_edge_area(surface, owner);
-  contact.gap = touch->gap;
+  contact.gap = taken.touch.gap;
   return contact;
 }
 
@@ -78,8 +78,7 @@ class SemiSprings {
       : surface_(surface), options_(options), targets_(find_targets(surface, options)), starts_(surface.faces.size() + 1, 0) {
     for_chunks(surface.faces.size(), [&](Chunk chunk) {
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-        starts_[f + 1] = springs_of(FaceId{f});
-        for_each_edge(FaceId{f}, [&](int, EdgeId) { ++starts_[f + 1]; });
+        starts_[f + 1] = springs_of(FaceId{f}) + edges_of(FaceId{f});
       }
     });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
@@ -95,14 +94,17 @@ class SemiSprings {
     }
     for_chunks(surface_.faces.size(), [&](Chunk chunk) {
       Contact<dim>* next = contacts.data() + starts_[chunk.begin];
+      auto edge = std::lower_bound(targets_.taken_edges.begin(), targets_.taken_edges.end(), chunk.begin * 3,
+                                   [](const TakenEdge& taken, std::size_t semi_edge) { return taken.semi_edge < semi_edge; });
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
         for (std::size_t spring = f * dim; spring < (f + 1) * dim; ++spring) {
           const SpringTouch<dim>* touch = touches[spring];
           if (touch != nullptr && counts(FaceId{f}, touch->target)) *next++ = point_contact(surface_, options_, *touch);
         }
         if constexpr (dim == 3) {
-          for_each_edge(FaceId{f},
-                        [&](int side, EdgeId target) { *next++ = edge_contact(surface_, options_, FaceId{f}, side, target); });
+          for (; edge != targets_.taken_edges.end() && edge->semi_edge < (f + 1) * 3; ++edge) {
+            if (counts(FaceId{f}, surface_.edges[edge->target].faces[0])) *next++ = edge_contact(surface_, options_, *edge);
+          }
         }
       }
     });
@@ -127,12 +129,14 @@ class SemiSprings {
     return count;
   }
 
-  template <class Visit>
-  void for_each_edge(FaceId face, const Visit& visit) const {
+  // How many of its semi-edges do.
+  [[nodiscard]] std::size_t edges_of(FaceId face) const {
+    std::size_t count = 0;
     for (int side = 0; side < 3 && dim == 3; ++side) {
       const EdgeId target = targets_.of_edges[face.index() * 3 + side];
-      if (target.valid() && counts(face, surface_.edges[target].faces[0])) visit(side, target);
+      count += target.valid() && counts(face, surface_.edges[target].faces[0]) ? 1 : 0;
     }
+    return count;
   }
 
   const Surface<dim>& surface_;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "contact/edge_search.h"
 #include "contact/find_contacts.h"
 #include "contact/spring_search.h"
 #include "contact/surface.h"
@@ -14,6 +15,7 @@ struct Targets {
   std::vector<std::vector<SpringTouch<dim>>> touches;  // those of the semi-springs that have a target, in no order of note
   std::vector<FaceId> of_springs;                      // of corner c of face f at f * dim + c; invalid if it touches nothing
   std::vector<EdgeId> of_edges;                        // of side s of face f at f * 3 + s; empty in 2-D
+  std::vector<TakenEdge> taken_edges;                  // those that have a target, in their order
 };
 
 // Each takes the closest face (edge) of all other blocks that it touches. Equally close faces: the one that looks at it most

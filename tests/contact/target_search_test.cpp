@@ -12,6 +12,12 @@ namespace {
 
 using namespace testing;
 
+template <class Target>
+Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
+  const Candidate<Target>* best = best_of(candidates, equal);
+  return best == nullptr ? Target{} : best->target;
+}
+
 std::vector<FaceId> ask_every_face(const Surface<3>& surface, const ContactOptions& options) {
   std::vector<FaceId> targets;
   for (const FaceId own : surface.faces.ids()) {
@@ -63,6 +69,16 @@ std::size_t valid(const auto& targets) {
   return static_cast<std::size_t>(std::count_if(targets.begin(), targets.end(), [](auto id) { return id.valid(); }));
 }
 
+void expect_touches(const Surface<3>& surface, const ContactOptions& options, const std::vector<TakenEdge>& taken) {
+  for (const TakenEdge& edge : taken) {
+    const FaceId owner{edge.semi_edge / 3};
+    const auto touch = touch_edge(surface, options, owner, static_cast<int>(edge.semi_edge % 3), edge.target).value();
+    EXPECT_EQ(edge.touch.gap, touch.gap);
+    EXPECT_EQ(edge.touch.along, touch.along);
+    EXPECT_EQ(edge.touch.on_target, touch.on_target);
+  }
+}
+
 void compare(const mesh::BlockMesh<3>& mesh, const ContactOptions& options, std::size_t least_springs,
              std::size_t least_edges) {
   const Surface<3> surface = make_surface(mesh);
@@ -71,6 +87,8 @@ void compare(const mesh::BlockMesh<3>& mesh, const ContactOptions& options, std:
   EXPECT_EQ(found.of_springs, springs);
   const auto edges = ask_every_edge(surface, options, springs);
   EXPECT_EQ(found.of_edges, edges);
+  EXPECT_EQ(found.taken_edges.size(), valid(edges));
+  expect_touches(surface, options, found.taken_edges);
   EXPECT_GE(valid(springs), least_springs);
   EXPECT_GE(valid(edges), least_edges);
 }
