@@ -1,5 +1,6 @@
-// Groups of touching blocks that come to rest by themselves: a heap beside one that still moves, a stone that rolled away.
-// They need not wait for the others; nothing more is worked out for them until something touches them (sleepers.h).
+// Groups of touching blocks that come to rest by themselves, such as a heap beside one that still moves. They need not wait for
+// the others; nothing more is worked out for them until something touches them (sleepers.h). Where few blocks would sleep, all
+// stay awake.
 //
 // A group is at rest if in a window as long as that of the whole pile (rest.h) the kinetic energy of its blocks, each at its
 // largest, is that of a tenth of the speed at which the pile may be at rest, their mean net force, each at its largest, a tenth
