@@ -77,8 +77,10 @@ class SemiSprings {
   SemiSprings(const Surface<dim>& surface, const ContactOptions& options)
       : surface_(surface), options_(options), targets_(find_targets(surface, options)), starts_(surface.faces.size() + 1, 0) {
     for_chunks(surface.faces.size(), [&](Chunk chunk) {
+      auto edge = first_edge_from(chunk.begin);
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-        starts_[f + 1] = springs_of(FaceId{f}) + edges_of(FaceId{f});
+        starts_[f + 1] = springs_of(FaceId{f});
+        for_each_edge(FaceId{f}, edge, [&](const TakenEdge&) { ++starts_[f + 1]; });
       }
     });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
@@ -94,17 +96,14 @@ class SemiSprings {
     }
     for_chunks(surface_.faces.size(), [&](Chunk chunk) {
       Contact<dim>* next = contacts.data() + starts_[chunk.begin];
-      auto edge = std::lower_bound(targets_.taken_edges.begin(), targets_.taken_edges.end(), chunk.begin * 3,
-                                   [](const TakenEdge& taken, std::size_t semi_edge) { return taken.semi_edge < semi_edge; });
+      auto edge = first_edge_from(chunk.begin);
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
         for (std::size_t spring = f * dim; spring < (f + 1) * dim; ++spring) {
           const SpringTouch<dim>* touch = touches[spring];
           if (touch != nullptr && counts(FaceId{f}, touch->target)) *next++ = point_contact(surface_, options_, *touch);
         }
         if constexpr (dim == 3) {
-          for (; edge != targets_.taken_edges.end() && edge->semi_edge < (f + 1) * 3; ++edge) {
-            if (counts(FaceId{f}, surface_.edges[edge->target].faces[0])) *next++ = edge_contact(surface_, options_, *edge);
-          }
+          for_each_edge(FaceId{f}, edge, [&](const TakenEdge& taken) { *next++ = edge_contact(surface_, options_, taken); });
         }
       }
     });
@@ -129,14 +128,20 @@ class SemiSprings {
     return count;
   }
 
-  // How many of its semi-edges do.
-  [[nodiscard]] std::size_t edges_of(FaceId face) const {
-    std::size_t count = 0;
-    for (int side = 0; side < 3 && dim == 3; ++side) {
-      const EdgeId target = targets_.of_edges[face.index() * 3 + side];
-      count += target.valid() && counts(face, surface_.edges[target].faces[0]) ? 1 : 0;
+  using Edge = std::vector<TakenEdge>::const_iterator;
+
+  // The first semi-edge that has a target, of this face or a later one.
+  [[nodiscard]] Edge first_edge_from(std::size_t face) const {
+    return std::lower_bound(targets_.of_edges.begin(), targets_.of_edges.end(), face * 3,
+                            [](const TakenEdge& taken, std::size_t semi_edge) { return taken.semi_edge < semi_edge; });
+  }
+
+  // Those of the face that count, of which `edge` is the first; then it is the first of the next face.
+  template <class Visit>
+  void for_each_edge(FaceId face, Edge& edge, const Visit& visit) const {
+    for (; edge != targets_.of_edges.end() && edge->semi_edge < (face.index() + 1) * 3; ++edge) {
+      if (counts(face, surface_.edges[edge->target].faces[0])) visit(*edge);
     }
-    return count;
   }
 
   const Surface<dim>& surface_;

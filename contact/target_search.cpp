@@ -35,9 +35,7 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
       edges.look_at(chunk, pair);
     });
     take(springs.touches(), surface.faces.size(), targets);
-    targets.taken_edges = edges.taken(targets.of_springs);
-    targets.of_edges.resize(surface.faces.size() * 3);
-    for (const TakenEdge& edge : targets.taken_edges) targets.of_edges[edge.semi_edge] = edge.target;
+    targets.of_edges = edges.taken(targets.of_springs);
   }
   return targets;
 }

@@ -33,9 +33,8 @@ Found<dim> found_on(const Surface<dim>& surface, const ContactOptions& options) 
     const FaceId target = targets.of_springs[i];
     if (target.valid()) found.springs[{surface.faces[FaceId{i / dim}].nodes, i % dim}] = surface.faces[target].nodes;
   }
-  for (std::size_t i = 0; i < targets.of_edges.size(); ++i) {
-    const EdgeId target = targets.of_edges[i];
-    if (target.valid()) found.edges[{surface.faces[FaceId{i / 3}].nodes, i % 3}] = surface.edges[target].nodes;
+  for (const TakenEdge& edge : targets.of_edges) {
+    found.edges[{surface.faces[FaceId{edge.semi_edge / 3}].nodes, edge.semi_edge % 3}] = surface.edges[edge.target].nodes;
   }
   return found;
 }
