@@ -1,6 +1,7 @@
 #include "tools/run/heat_recorder.h"
 
 #include <cmath>
+#include <utility>
 
 #include "engine/base/threads.h"
 #include "thermal/space_error.h"
@@ -75,9 +76,9 @@ HeatRecorder<dim>::~HeatRecorder() {
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   finish();
-  pending_ = std::async(std::launch::async, [this, state] {
+  pending_ = std::async(std::launch::async, [this, state]() mutable {
     use_threads(1);  // of this thread's own loops
-    write(state);
+    write(std::move(state));
   });
 }
 
@@ -87,7 +88,7 @@ void HeatRecorder<dim>::finish() {
 }
 
 template <int dim>
-void HeatRecorder<dim>::write(const thermal::HeatState& state) {
+void HeatRecorder<dim>::write(thermal::HeatState state) {
   const Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
   if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
@@ -97,7 +98,7 @@ void HeatRecorder<dim>::write(const thermal::HeatState& state) {
   } else if (state.time >= scene_.heat->time.until || std::chrono::steady_clock::now() - saved_ >= longest_unsaved) {
     save(state);
   } else {
-    unsaved_ = state;
+    unsaved_ = std::move(state);
   }
 }
 

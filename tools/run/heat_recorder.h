@@ -38,7 +38,7 @@ class HeatRecorder {
  private:
   // The restart file comes last: it never promises more than the other files hold. It may be some time behind them: a run that
   // is killed computes that again.
-  void write(const thermal::HeatState& state);
+  void write(thermal::HeatState state);
   void save(const thermal::HeatState& state);
   void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
 
