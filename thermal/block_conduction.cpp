@@ -20,13 +20,6 @@ Tensor<dim> conductivity_ratios(const Conductivity& conductivity, const mesh::Bl
   return tensor.topLeftCorner<dim, dim>();
 }
 
-template <int dim>
-Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes) {
-  Corners<dim> points;
-  for (int a = 0; a <= dim; ++a) points.col(a) = mesh.nodes[nodes[a]];
-  return points;
-}
-
 template <>
 Corners<2> opposite_areas<2>(const Corners<2>& points) {
   Corners<2> areas;
@@ -51,14 +44,6 @@ Corners<3> opposite_areas<3>(const Corners<3>& points) {
 }
 
 template <int dim>
-Point<dim> element_flux(const Corners<dim>& points, const Tensor<dim>& conductivity, const CornerValues<dim>& temperatures) {
-  const Corners<dim> areas = opposite_areas<dim>(points);
-  // Differences from one corner: the areas sum to zero only to rounding, and temperatures in kelvin are large.
-  const CornerValues<dim> difference = temperatures.array() - temperatures[0];
-  return conductivity * (areas * difference) / dim_times_volume<dim>(points, areas);
-}
-
-template <int dim>
 CornerMatrix<dim> element_conductance(const Corners<dim>& points, const Tensor<dim>& conductivity) {
   const Corners<dim> areas = opposite_areas<dim>(points);
   const double scale = 1 / (dim * dim_times_volume<dim>(points, areas));
@@ -77,10 +62,6 @@ CornerMatrix<dim> element_conductance(const Corners<dim>& points, const Tensor<d
 
 template Tensor<2> conductivity_ratios<2>(const Conductivity&, const mesh::Block&);
 template Tensor<3> conductivity_ratios<3>(const Conductivity&, const mesh::Block&);
-template Corners<2> corner_points<2>(const mesh::BlockMesh<2>&, const std::array<NodeId, 3>&);
-template Corners<3> corner_points<3>(const mesh::BlockMesh<3>&, const std::array<NodeId, 4>&);
-template Point<2> element_flux<2>(const Corners<2>&, const Tensor<2>&, const CornerValues<2>&);
-template Point<3> element_flux<3>(const Corners<3>&, const Tensor<3>&, const CornerValues<3>&);
 template CornerMatrix<2> element_conductance<2>(const Corners<2>&, const Tensor<2>&);
 template CornerMatrix<3> element_conductance<3>(const Corners<3>&, const Tensor<3>&);
 

@@ -36,15 +36,38 @@ template <int dim>
 Tensor<dim> conductivity_ratios(const Conductivity& conductivity, const mesh::Block& block);
 
 template <int dim>
-Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes);  // [m]
+Corners<dim> corner_points(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& nodes) {  // [m]
+  Corners<dim> points;
+  for (int a = 0; a <= dim; ++a) points.col(a) = mesh.nodes[nodes[a]];
+  return points;
+}
 
 // Outward area vectors S_a of the faces opposite to each corner [m2] (2-D: times unit thickness).
 template <int dim>
 Corners<dim> opposite_areas(const Corners<dim>& points);
 
+// Of the linear function that has these values at the corners, which is -1/(dim V) sum_a S_a T_a. Differences from one corner,
+// as the areas sum to zero only to rounding, and temperatures in kelvin are large: the area opposite to that corner drops out,
+// and a frame asks for this of every element.
+template <int dim>
+Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values) {
+  const Eigen::Matrix<double, dim, dim> ways = points.template rightCols<dim>().colwise() - points.col(0);
+  const Point<dim> rises = values.template tail<dim>().array() - values[0];
+  if constexpr (dim == 2) {
+    const auto across = [&](int a) { return Point<2>(ways(1, a), -ways(0, a)); };
+    return (rises[0] * across(1) - rises[1] * across(0)) / ways.col(0).dot(across(1));
+  } else {
+    const Point<3> across = ways.col(1).cross(ways.col(2));
+    return (rises[0] * across + rises[1] * ways.col(2).cross(ways.col(0)) + rises[2] * ways.col(0).cross(ways.col(1))) /
+           ways.col(0).dot(across);
+  }
+}
+
 // q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K].
 template <int dim>
-Point<dim> element_flux(const Corners<dim>& points, const Tensor<dim>& conductivity, const CornerValues<dim>& temperatures);
+Point<dim> element_flux(const Corners<dim>& points, const Tensor<dim>& conductivity, const CornerValues<dim>& temperatures) {
+  return -(conductivity * gradient<dim>(points, temperatures));
+}
 
 // K_ab of eqs. (4)-(5) [W/K]: exactly symmetric, and each diagonal is minus the sum of its row.
 template <int dim>

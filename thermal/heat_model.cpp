@@ -148,7 +148,7 @@ class BlockFlux {
       : mesh_(mesh),
         value_(material_of(mesh, materials, block).conductivity->value),
         constant_(value_.constant()),
-        tensor_(value_.constant().value_or(1) *
+        tensor_(constant_.value_or(1) *
                 conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block])) {}
 
   Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
@@ -174,8 +174,8 @@ class BlockFlux {
 
  private:
   const mesh::BlockMesh<dim>& mesh_;
-  Curve value_;
-  bool constant_;
+  const Curve& value_;
+  std::optional<double> constant_;
   Tensor<dim> tensor_;
 };
 

@@ -184,6 +184,13 @@ void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact) {
   for (std::size_t at = 0; at < sizeof contacts[0]; at += line) __builtin_prefetch(start + at);
 }
 
+// And the temperatures that one will ask for which has been read by now: the target's lie anywhere.
+template <int dim>
+void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact, const Eigen::VectorXd& temperature) {
+  const contact::Contact<dim>& ahead = contacts[std::min(contact + 8, contacts.size() - 1)];
+  __builtin_prefetch(&temperature[ahead.on_target.nodes[0].value()]);
+}
+
 }  // namespace
 
 template <int dim>
@@ -238,6 +245,7 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
   auto term = conduction.perfect.begin();
   for (std::size_t c = 0; c < contacts.contacts.size(); ++c) {
     fetch_ahead<dim>(contacts.contacts, c);
+    fetch_ahead<dim>(contacts.contacts, c, temperature);
     if (term != conduction.perfect.end() && term->contact == c) {
       flows.push_back(perfect_flow(*term++, conduction, temperature));
     } else {
