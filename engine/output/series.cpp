@@ -72,18 +72,29 @@ void Series::write(const Grid& grid, const Frame& frame) {
   append(frame, encoded(grid, {}));
 }
 
-void Series::append(const Frame& frame, const EncodedGrid& grid) {
+void Series::add(const Frame& frame) {
+  add(frame, shared_);
+}
+
+void Series::name_frames() {
+  write_index(index_, entries_);
+}
+
+void Series::add(const Frame& frame, const EncodedGrid& grid) {
   SCREE_EXPECT(entries_.empty() || frame.time > entries_.back().time);
   SeriesEntry entry{frame.time, fmt::format("{0}/{0}_{1:06}.vtu", name_, entries_.size())};
-  const fs::path file = directory_ / entry.file;
-  write_vtu(file, grid, frame, scratch_);
+  write_vtu(directory_ / entry.file, grid, frame, scratch_);
   entries_.push_back(std::move(entry));
+}
+
+void Series::append(const Frame& frame, const EncodedGrid& grid) {
+  add(frame, grid);
   try {
-    write_index(index_, entries_);
+    name_frames();
   } catch (...) {
-    entries_.pop_back();
     std::error_code ignored;
-    fs::remove(file, ignored);
+    fs::remove(directory_ / entries_.back().file, ignored);
+    entries_.pop_back();
     throw;
   }
 }

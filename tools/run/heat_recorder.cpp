@@ -20,7 +20,7 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
 }
 
 // Of wall time that a run which is killed may have to compute again. Short runs write many frames in a second, and to write
-// this file takes as long as a frame of temperatures.
+// the restart file takes as long as a frame of temperatures.
 constexpr std::chrono::seconds longest_unsaved{1};
 
 // At the multiples of the frames' interval, and at the end.
@@ -95,6 +95,7 @@ void HeatRecorder<dim>::write(thermal::HeatState state) {
   write_frame(temperature, state);
   if (state.time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
     std::filesystem::remove(restart_);
+    name_frames();
   } else if (state.time >= scene_.heat->time.until || std::chrono::steady_clock::now() - saved_ >= longest_unsaved) {
     save(state);
   } else {
@@ -104,9 +105,16 @@ void HeatRecorder<dim>::write(thermal::HeatState state) {
 
 template <int dim>
 void HeatRecorder<dim>::save(const thermal::HeatState& state) {
+  name_frames();
   thermal::write(state, pile_.key, restart_);
   unsaved_.reset();
   saved_ = std::chrono::steady_clock::now();
+}
+
+template <int dim>
+void HeatRecorder<dim>::name_frames() {
+  series_.name_frames();
+  if (contact_series_) contact_series_->name_frames();
 }
 
 template <int dim>
@@ -119,12 +127,12 @@ void HeatRecorder<dim>::write_frame(const Eigen::VectorXd& temperature, const th
       const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, temperature, rate);
       frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
     }
-    series_.write(frame);
+    series_.add(frame);
   };
   const auto write_contacts = [&] {
     if (!contact_series_) return;
     auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
-    contact_series_->write(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
+    contact_series_->add(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
   };
   // Until the last frame the other threads compute.
   call_both(several_threads_ && state.time >= scene_.heat->time.until, write_blocks, write_contacts);

@@ -21,7 +21,7 @@ class HeatRecorder {
   // Starts the files, or goes on with those of a run that reached `resumed_from`.
   HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, const thermal::HeatModel& model,
                std::optional<double> resumed_from);
-  // Writes the restart file, if it is older than the frames: the run was stopped.
+  // Names the last frames and writes the restart file, if these are older than the frames: the run was stopped.
   ~HeatRecorder();
   HeatRecorder(const HeatRecorder&) = delete;
   HeatRecorder& operator=(const HeatRecorder&) = delete;
@@ -36,10 +36,11 @@ class HeatRecorder {
   void finish();
 
  private:
-  // The restart file comes last: it never promises more than the other files hold. It may be some time behind them: a run that
-  // is killed computes that again.
   void write(thermal::HeatState state);
+  // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
+  // be some time behind the frames: a run that is killed computes that again.
   void save(const thermal::HeatState& state);
+  void name_frames();
   void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
 
   const Scene& scene_;
@@ -51,7 +52,7 @@ class HeatRecorder {
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
   bool space_error_ = false;
-  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the restart file, last
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // last
   std::optional<thermal::HeatState> unsaved_;                                       // of the last frame
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
