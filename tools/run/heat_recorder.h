@@ -52,7 +52,7 @@ class HeatRecorder {
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
   bool space_error_ = false;
-  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // last
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
   std::optional<thermal::HeatState> unsaved_;                                       // of the last frame
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
