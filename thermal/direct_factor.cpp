@@ -1,8 +1,12 @@
 #include "thermal/direct_factor.h"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 
+#include "engine/base/huge_pages.h"
 #include "engine/base/late_library.h"
+#include "engine/base/phases.h"
 
 namespace scree::thermal {
 
@@ -13,6 +17,13 @@ std::unique_ptr<Factor> made_by(const char* name) {
   return std::unique_ptr<Factor>(late_function<Factor*()>("libscree_factor.so", name)());
 }
 
+// Numbers too small for single precision are zeros: where they are kept as such, each takes the processor a hundred times as
+// long.
+float single(double value) {
+  constexpr double least = std::numeric_limits<float>::min();
+  return std::abs(value) < least ? 0.0F : static_cast<float>(value);
+}
+
 class Cholesky : public DirectFactor {
  public:
   FactorSize analyse(const Matrix& matrix) override {
@@ -21,15 +32,42 @@ class Cholesky : public DirectFactor {
   }
   void factorise(const Matrix& matrix) override {
     if (!analysed_) analyse(matrix);
+    if (!solve_) make_room();
     factor_->factorise(matrix);
-    if (sound()) solve_.emplace(factor_->factor());
+    rough_is_new_ = false;
   }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return solve_.value().solve(rhs); }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return solve_.value().solve(values_, rhs); }
+  Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) override {
+    if (!rough_is_new_) round_values();
+    return solve_.value().solve(rough_.data(), rhs);
+  }
   [[nodiscard]] bool sound() const override { return factor_->sound(); }
 
  private:
+  void make_room() {
+    values_ = factor_->make_room();
+    if (values_ == nullptr) return;
+    solve_.emplace(factor_->pattern());
+    prefer_huge_pages(values_, solve_->entries() * sizeof(double));
+  }
+  void round_values() {
+    const std::size_t count = solve_.value().entries();
+    if (rough_.size() == 0) {
+      rough_.resize(static_cast<Eigen::Index>(count));
+      prefer_huge_pages(rough_.data(), count * sizeof(float));
+    }
+    float* rough = rough_.data();
+    for_short_chunks(count, [&](Chunk chunk) {
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) rough[i] = single(values_[i]);
+    });
+    rough_is_new_ = true;
+  }
+
   std::unique_ptr<CholeskyFactor> factor_ = made_by<CholeskyFactor>("scree_make_cholesky");
   std::optional<SupernodalSolve> solve_;
+  double* values_ = nullptr;
+  Eigen::VectorXf rough_;  // the values in single precision, once they are asked for
+  bool rough_is_new_ = false;
   bool analysed_ = false;
 };
 

@@ -28,6 +28,8 @@ class DirectFactor {
   virtual void factorise(const Matrix& matrix) = 0;
   // Needs factorise().
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
+  // The same by the factor's values rounded to single precision, if there are any: half as much to read.
+  virtual Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) { return solve(rhs); }
   [[nodiscard]] virtual bool sound() const = 0;
 };
 
@@ -44,8 +46,11 @@ class CholeskyFactor {
   virtual FactorSize analyse(const Matrix& matrix) = 0;
   virtual void factorise(const Matrix& matrix) = 0;
   [[nodiscard]] virtual bool sound() const = 0;
-  // After factorise(), until the next.
-  [[nodiscard]] virtual SupernodalFactor factor() const = 0;
+  // After analyse(), unless there is no memory for it: where factorise() puts the values of the factor, for all matrices.
+  // Nothing has been written there yet.
+  virtual double* make_room() = 0;
+  // After make_room().
+  [[nodiscard]] virtual SupernodalPattern pattern() const = 0;
 };
 
 // Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.

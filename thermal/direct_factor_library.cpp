@@ -34,6 +34,11 @@ class OneOpenMpThread {
 class Supernodes : public Eigen::CholmodSupernodalLLT<DirectFactor::Matrix, Eigen::Lower> {
  public:
   [[nodiscard]] const cholmod_factor& factor() const { return *m_cholmodFactor; }
+  double* make_room() {
+    constexpr int yes = 1;  // L L^T, by supernodes, both of which it is by the analysis; packed and in order say nothing then
+    cholmod_change_factor(CHOLMOD_REAL, yes, yes, yes, yes, m_cholmodFactor, &cholmod());
+    return static_cast<double*>(m_cholmodFactor->x);
+  }
 };
 
 class Cholmod : public CholeskyFactor {
@@ -52,16 +57,13 @@ class Cholmod : public CholeskyFactor {
     cholesky_.factorize(matrix);
   }
   [[nodiscard]] bool sound() const override { return cholesky_.info() == Eigen::Success; }
-  [[nodiscard]] SupernodalFactor factor() const override {
+  double* make_room() override { return cholesky_.make_room(); }
+  [[nodiscard]] SupernodalPattern pattern() const override {
     const cholmod_factor& factor = cholesky_.factor();
     const auto integers = [](const void* array) { return static_cast<const int*>(array); };
-    return {static_cast<int>(factor.n),
-            static_cast<int>(factor.nsuper),
-            integers(factor.super),
-            integers(factor.pi),
-            integers(factor.s),
-            integers(factor.px),
-            static_cast<const double*>(factor.x),
+    return {static_cast<int>(factor.n), static_cast<int>(factor.nsuper),
+            integers(factor.super),     integers(factor.pi),
+            integers(factor.s),         integers(factor.px),
             integers(factor.Perm)};
   }
 

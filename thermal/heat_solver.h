@@ -31,7 +31,8 @@ class HeatSolver {
   // Each column of `rhs` [J] to its solution [K]. Needs prepare().
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
 
-  // To six digits, where an iteration can save by that: estimates, and what is corrected again.
+  // To some six digits, where that saves time: an iteration ends early, a factor is taken in single precision. For estimates,
+  // and for what is corrected again.
   [[nodiscard]] Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) const;
 
   // Whether solutions are as exact as an iteration makes them, instead of as rounding.
@@ -58,6 +59,7 @@ class HeatSolver {
   SolverCost cost_;
   Eigen::VectorXd diagonal_;  // what it is ready for
   double scale_ = 0;
+  bool rough_will_do_ = false;  // whether single precision is enough for estimates
   std::int64_t factorisations_ = 0;
 };
 

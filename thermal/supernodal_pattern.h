@@ -1,4 +1,4 @@
-// A Cholesky factor by supernodes.
+// A Cholesky factor by supernodes: its pattern, and how its values are reached.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,21 @@ namespace scree::thermal {
 
 // As CHOLMOD keeps it (cholmod_core.h): supernode s has the columns first[s] to first[s + 1] and the rows from rows_begin[s] on
 // to rows_begin[s + 1], which begin with those of its columns and ascend; its values, column by column, start at
-// values_begin[s]. Row and column i stand for unknown permutation[i].
-struct SupernodalFactor {
+// values_begin[s], and all end at values_begin[supernodes]. Row and column i stand for unknown permutation[i].
+struct SupernodalPattern {
   int unknowns = 0;
   int supernodes = 0;
   const int* first = nullptr;
   const int* rows_begin = nullptr;
   const int* rows = nullptr;
   const int* values_begin = nullptr;
-  const double* values = nullptr;
   const int* permutation = nullptr;
 
   [[nodiscard]] int rows_of(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
-  [[nodiscard]] Supernode supernode(int s) const { return {values + values_begin[s], rows_of(s), first[s + 1] - first[s]}; }
+  template <class Value>
+  [[nodiscard]] Supernode<Value> supernode(const Value* values, int s) const {
+    return {values + values_begin[s], rows_of(s), first[s + 1] - first[s]};
+  }
 
   // Values of rows stand in x[sides * row + side], in w as the kernels want them.
   // The first `count` rows of supernode s from x; the others are zero.

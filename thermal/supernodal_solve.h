@@ -1,9 +1,10 @@
-// Solves L L^T x = b with a supernodal Cholesky factor on all threads. CHOLMOD's own solve goes through L twice on one of them,
+// Solves L L^T x = b with a supernodal Cholesky factor on all threads, of which the pattern alone is kept here: the values, in
+// double or in single precision, come with the right sides. CHOLMOD's own solve goes through L twice on one of them,
 // and in runs of hundreds of steps with a dozen matrices that is where the time goes.
 //
 // A supernode is a run of columns of L with the same rows, and its parent the one that holds the first of its rows below them.
 // Different subtrees of that forest have nothing to do with each other until they meet: they are solved at once, and what they
-// give to the rows above is added in their order. How the forest is cut depends on the factor alone, so any number of threads
+// give to the rows above is added in their order. How the forest is cut depends on the pattern alone, so any number of threads
 // gives the same bits.
 #pragma once
 
@@ -19,11 +20,15 @@ namespace scree::thermal {
 
 class SupernodalSolve {
  public:
-  // Refers to the factor's arrays. Looks at its pattern only.
-  explicit SupernodalSolve(const SupernodalFactor& factor);
+  // Refers to the pattern's arrays.
+  explicit SupernodalSolve(const SupernodalPattern& pattern);
 
   // Each column of `rhs` to its solution.
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
+  template <class Value>
+  [[nodiscard]] Eigen::MatrixXd solve(const Value* values, const Eigen::MatrixXd& rhs) const;
+
+  // Of the factor.
+  [[nodiscard]] std::size_t entries() const { return static_cast<std::size_t>(pattern_.values_begin[pattern_.supernodes]); }
 
  private:
   struct Task {
@@ -32,14 +37,14 @@ class SupernodalSolve {
   };
   void cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries);
   void find_rows_above(const std::vector<int>& top);
-  template <int sides>
-  void solve(const double* rhs, double* solution) const;
-  template <int sides>
-  void forward(const Task& task, double* x, double* above) const;
-  template <int sides>
-  void backward(const Task& task, double* x) const;
+  template <int sides, class Value>
+  void solve(const Value* values, const double* rhs, double* solution) const;
+  template <int sides, class Value>
+  void forward(const Task& task, const Value* values, double* x, double* above) const;
+  template <int sides, class Value>
+  void backward(const Task& task, const Value* values, double* x) const;
 
-  SupernodalFactor factor_;
+  SupernodalPattern pattern_;
   std::vector<Task> tasks_;      // trees that are solved at once, the largest first
   TopSupernodes top_;            // what is above them
   std::vector<int> rows_below_;  // of each supernode, how many of its rows are not in the top

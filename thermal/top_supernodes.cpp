@@ -13,10 +13,10 @@ constexpr int rows_in_piece = 192;
 
 // Phases forward: for each block its corner, then the rows after it. One turns. Phases backward: for each block, from the last
 // to the first, the rows after it, then its corner.
-void TopSupernodes::set(const SupernodalFactor& factor, const std::vector<int>& supernodes) {
-  factor_ = factor;
+void TopSupernodes::set(const SupernodalPattern& pattern, const std::vector<int>& supernodes) {
+  pattern_ = pattern;
   for (const int s : supernodes) {
-    const int rows = factor.rows_of(s), columns = factor.first[s + 1] - factor.first[s];
+    const int rows = pattern.rows_of(s), columns = pattern.first[s + 1] - pattern.first[s];
     most_rows_ = std::max(most_rows_, rows);
     for (int begin = 0; begin < columns; begin += columns_in_block) {
       const int end = std::min(columns, begin + columns_in_block);
@@ -38,24 +38,24 @@ TopSupernodes::Space TopSupernodes::space() const {
 
 Span TopSupernodes::rows_of(const Block& block, int piece) const {
   const int begin = block.columns.end + piece * rows_in_piece;
-  return {begin, std::min(factor_.rows_of(block.supernode), begin + rows_in_piece)};
+  return {begin, std::min(pattern_.rows_of(block.supernode), begin + rows_in_piece)};
 }
 
-template <int sides>
-void TopSupernodes::forward_corner(std::size_t number, double* x, double* w) const {
+template <int sides, class Value>
+void TopSupernodes::forward_corner(std::size_t number, const Value* values, double* x, double* w) const {
   const Block& block = blocks_[number];
-  const Supernode node = factor_.supernode(block.supernode);
+  const Supernode<Value> node = pattern_.supernode(values, block.supernode);
   if (block.columns.begin == 0) {
-    if (number > 0) factor_.store<sides>(blocks_[number - 1].supernode, factor_.rows_of(blocks_[number - 1].supernode), w, x);
-    factor_.load<sides>(block.supernode, node.columns, x, w);
+    if (number > 0) pattern_.store<sides>(blocks_[number - 1].supernode, pattern_.rows_of(blocks_[number - 1].supernode), w, x);
+    pattern_.load<sides>(block.supernode, node.columns, x, w);
   }
   forward<sides>(node, block.columns, block.pieces > 0 ? block.columns.end : node.rows, w);
 }
 
-template <int sides>
-void TopSupernodes::backward_corner(std::size_t number, double* x, Space& space) const {
+template <int sides, class Value>
+void TopSupernodes::backward_corner(std::size_t number, const Value* values, double* x, Space& space) const {
   const Block& block = blocks_[number];
-  const Supernode node = factor_.supernode(block.supernode);
+  const Supernode<Value> node = pattern_.supernode(values, block.supernode);
   const int columns = block.columns.end - block.columns.begin;
   double* w = space.w.data();
   for (int piece = 0; piece < block.pieces; ++piece) {
@@ -66,35 +66,37 @@ void TopSupernodes::backward_corner(std::size_t number, double* x, Space& space)
   }
   backward<sides>(node, block.columns, block.pieces > 0 ? block.columns.end : node.rows, w);
   if (block.columns.begin > 0) return;
-  factor_.store<sides>(block.supernode, node.columns, w, x);
-  if (number > 0) factor_.load<sides>(blocks_[number - 1].supernode, factor_.rows_of(blocks_[number - 1].supernode), x, w);
+  pattern_.store<sides>(block.supernode, node.columns, w, x);
+  if (number > 0) pattern_.load<sides>(blocks_[number - 1].supernode, pattern_.rows_of(blocks_[number - 1].supernode), x, w);
 }
 
-template <int sides>
-void TopSupernodes::run(int phase, int task, double* x, Space& space) const {
+template <int sides, class Value>
+void TopSupernodes::run(int phase, int task, const Value* values, double* x, Space& space) const {
   const int turn = 2 * static_cast<int>(blocks_.size());
   double* w = space.w.data();
   if (phase < turn) {
     const auto number = static_cast<std::size_t>(phase / 2);
-    if (phase % 2 == 0) return forward_corner<sides>(number, x, w);
+    if (phase % 2 == 0) return forward_corner<sides>(number, values, x, w);
     const Block& block = blocks_[number];
-    return subtract<sides>(factor_.supernode(block.supernode), block.columns, rows_of(block, task), w);
+    return subtract<sides>(pattern_.supernode(values, block.supernode), block.columns, rows_of(block, task), w);
   }
   if (phase == turn) {
     const int last = blocks_.back().supernode;
-    factor_.store<sides>(last, factor_.rows_of(last), w, x);
-    return factor_.load<sides>(last, factor_.rows_of(last), x, w);
+    pattern_.store<sides>(last, pattern_.rows_of(last), w, x);
+    return pattern_.load<sides>(last, pattern_.rows_of(last), x, w);
   }
   const auto number = blocks_.size() - 1 - static_cast<std::size_t>((phase - turn - 1) / 2);
-  if ((phase - turn) % 2 == 0) return backward_corner<sides>(number, x, space);
+  if ((phase - turn) % 2 == 0) return backward_corner<sides>(number, values, x, space);
   const Block& block = blocks_[number];
   double* sums = space.sums.data() + static_cast<std::ptrdiff_t>(task) * sides * columns_in_block;
-  multiply<sides>(factor_.supernode(block.supernode), block.columns, rows_of(block, task), w, sums);
+  multiply<sides>(pattern_.supernode(values, block.supernode), block.columns, rows_of(block, task), w, sums);
 }
 
 template TopSupernodes::Space TopSupernodes::space<1>() const;
 template TopSupernodes::Space TopSupernodes::space<2>() const;
-template void TopSupernodes::run<1>(int, int, double*, Space&) const;
-template void TopSupernodes::run<2>(int, int, double*, Space&) const;
+template void TopSupernodes::run<1>(int, int, const double*, double*, Space&) const;
+template void TopSupernodes::run<2>(int, int, const double*, double*, Space&) const;
+template void TopSupernodes::run<1>(int, int, const float*, double*, Space&) const;
+template void TopSupernodes::run<2>(int, int, const float*, double*, Space&) const;
 
 }  // namespace scree::thermal

@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "thermal/supernodal_factor.h"
+#include "thermal/supernodal_pattern.h"
 
 namespace scree::thermal {
 
 class TopSupernodes {
  public:
-  // Refers to the factor's arrays. Supernodes ascend.
-  void set(const SupernodalFactor& factor, const std::vector<int>& supernodes);
+  // Refers to the pattern's arrays. Supernodes ascend.
+  void set(const SupernodalPattern& pattern, const std::vector<int>& supernodes);
 
   // The tasks of each phase (engine/base/phases.h) of a solve.
   [[nodiscard]] const std::vector<int>& sizes() const { return sizes_; }
@@ -23,9 +23,10 @@ class TopSupernodes {
   template <int sides>
   [[nodiscard]] Space space() const;
 
-  // x[sides * row + side] of all rows: the right sides, less what the trees below take, become the solution.
-  template <int sides>
-  void run(int phase, int task, double* x, Space& space) const;
+  // x[sides * row + side] of all rows: the right sides, less what the trees below take, become the solution. `values`: the
+  // factor's.
+  template <int sides, class Value>
+  void run(int phase, int task, const Value* values, double* x, Space& space) const;
 
  private:
   struct Block {
@@ -34,12 +35,12 @@ class TopSupernodes {
     int pieces;  // of the rows after it; 0: too few to share
   };
   [[nodiscard]] Span rows_of(const Block& block, int piece) const;
-  template <int sides>
-  void forward_corner(std::size_t number, double* x, double* w) const;
-  template <int sides>
-  void backward_corner(std::size_t number, double* x, Space& space) const;
+  template <int sides, class Value>
+  void forward_corner(std::size_t number, const Value* values, double* x, double* w) const;
+  template <int sides, class Value>
+  void backward_corner(std::size_t number, const Value* values, double* x, Space& space) const;
 
-  SupernodalFactor factor_;
+  SupernodalPattern pattern_;
   std::vector<Block> blocks_;
   std::vector<int> sizes_;
   int most_rows_ = 0;

@@ -15,6 +15,12 @@ SCREE_INLINE void load(Quad& quad, const double* from) {
   std::memcpy(&quad, from, sizeof quad);
 }
 
+SCREE_INLINE void load(Quad& quad, const float* from) {
+  float __attribute__((vector_size(numbers_in_quad * sizeof(float)))) values;
+  std::memcpy(&values, from, sizeof values);
+  quad = __builtin_convertvector(values, Quad);
+}
+
 SCREE_INLINE void store(const Quad& quad, double* to) {
   std::memcpy(to, &quad, sizeof quad);
 }
