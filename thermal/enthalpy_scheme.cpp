@@ -1,7 +1,8 @@
 // The scheme of sdirk2.h for properties and coefficients that change: Newton's iteration for each stage,
 //   r = B + gamma h F(Y) - (H(Y) - H(T)),    Y += M^-1 r,    B = 0, then from_first (H(Y1) - H(T)),
-// with one matrix M per step, taken at its start, and a new one where the iteration converges slowly. It goes on until the
-// residual is rounding, so that the ledger closes: what is left of r is heat that came from nowhere.
+// with one matrix M for as many steps of one length as it serves, taken at the start of the first of them, and a new one where
+// the iteration converges slowly. It goes on until the residual is rounding, so that the ledger closes: what is left of r is
+// heat that came from nowhere.
 #include <limits>
 
 #include "thermal/free_nodes.h"
@@ -18,6 +19,7 @@ using namespace sdirk2;
 constexpr int most_iterations = 30;
 constexpr double least_gain = 0.2;      // of an iteration, before a new matrix is worth its cost
 constexpr double left_of_heat = 1e-13;  // residual, of the heat that the stage moves
+constexpr double served_change = 0.01;  // of any entry of M's diagonal and of any conductivity, before M no longer serves
 constexpr double rounding = 1e-12;      // of a temperature: an iteration that moves less and gains little has come to its end
 
 class EnthalpyScheme : public TimeScheme {
@@ -30,7 +32,8 @@ class EnthalpyScheme : public TimeScheme {
     Stage first{1 - gamma, from.time + scale_, {}};
     Stage last{gamma, from.time + length, {}};
     first.temperature = held(model_, from.temperature, drives_.at(first.time));
-    linearise(first);
+    const Linearised now = balance_.linearised(first.temperature, drives_.at(first.time));
+    if (!serves(now)) linearise(first, now);
 
     Step result;
     result.local_error = std::numeric_limits<double>::infinity();
@@ -66,6 +69,13 @@ class EnthalpyScheme : public TimeScheme {
                               allowed);
   }
 
+  [[nodiscard]] MatrixOrigin matrix_origin() const override { return origin_; }
+  void take_matrix(const MatrixOrigin& origin) override {
+    if (origin.temperature.size() == 0) return;
+    scale_ = origin.scale;
+    linearise({1, origin.time, origin.temperature}, balance_.linearised(origin.temperature, drives_.at(origin.time)));
+  }
+
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
   [[nodiscard]] SolverCost solver_cost() const override { return solver_.cost(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
@@ -74,9 +84,21 @@ class EnthalpyScheme : public TimeScheme {
   }
 
  private:
-  void linearise(const Stage& stage) {
-    linear_ = balance_.linearised(stage.temperature, drives_.at(stage.time));
+  void linearise(const Stage& stage, const Linearised& at) {
+    linear_ = at;
+    origin_ = {stage.temperature, stage.time, scale_};
     solver_.prepare(linear_, scale_);
+  }
+
+  // A matrix that is 1 % off costs an iteration or two a stage, a new factor as much as ten to fifty of them; the coarse levels
+  // of a multigrid no more than one.
+  [[nodiscard]] bool serves(const Linearised& now) const {
+    if (solver_.iterates() || origin_.scale != scale_) return false;
+    const auto near = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+      return ((a - b).array().abs() <= served_change * b.array()).all();
+    };
+    return near(now.capacity + scale_ * now.loss, linear_.capacity + scale_ * linear_.loss) &&
+           near(now.conductivity, linear_.conductivity);
   }
 
   // From the stage's temperatures as a first guess to its solution; false if there is none to be had. `base` is B [J].
@@ -92,7 +114,7 @@ class EnthalpyScheme : public TimeScheme {
       if (left <= left_of_heat * (stored.lpNorm<1>() + base.lpNorm<1>())) return true;
       const bool slow = left > least_gain * before;
       if (slow && moved <= rounding * stage.temperature.lpNorm<Eigen::Infinity>()) return true;
-      if (slow) linearise(stage);
+      if (slow) linearise(stage, balance_.linearised(stage.temperature, drives_.at(stage.time)));
       before = left;
       const Eigen::VectorXd change = solver_.estimate(residual);
       moved = change.lpNorm<Eigen::Infinity>();
@@ -119,8 +141,9 @@ class EnthalpyScheme : public TimeScheme {
   HeatBalance balance_;
   FreeNodes free_;
   HeatSolver solver_;
-  Linearised linear_;  // what the solver is prepared for
-  double scale_ = 0;   // gamma h [s]
+  Linearised linear_;    // what the solver is prepared for
+  MatrixOrigin origin_;  // and where that is from
+  double scale_ = 0;     // gamma h of the step [s]
 };
 
 }  // namespace

@@ -81,12 +81,14 @@ class HeatRun::Implementation {
   void resume(HeatState state) {
     const bool fits = state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
                       state.lumping.carried.size() == state_.lumping.carried.size() &&
+                      (state.matrix.temperature.size() == 0 || state.matrix.temperature.size() == state_.temperature.size()) &&
                       state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
                       state.ledger.by_applied.size() == state_.ledger.by_applied.size() &&
                       state.ledger.by_surroundings.size() == state_.ledger.by_surroundings.size();
     if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
     earlier_factorisations_ = state_.factorisations;
+    scheme_.scheme->take_matrix(state_.matrix);
   }
 
   void advance_to(double target, const std::function<void(double)>& progress) {
@@ -205,6 +207,7 @@ class HeatRun::Implementation {
     bookkeeper_.book(step, state_.temperature, dt, state_.ledger);
     state_.temperature += step.change;
     state_.error = step.error;
+    state_.matrix = scheme_.scheme->matrix_origin();
     if (!state_.temperature.allFinite()) {
       throw RunError(
           fmt::format("The temperatures are not finite after {:g} s. Look for huge loads or almost empty blocks", time));

@@ -12,6 +12,7 @@
 
 #include "thermal/heat_model.h"
 #include "thermal/lumping_error.h"
+#include "thermal/matrix_origin.h"
 
 namespace scree::thermal {
 
@@ -54,6 +55,7 @@ struct HeatState {
   TemperatureRange reached;
   TemperatureRange given;
   LumpingError lumping;
+  MatrixOrigin matrix;
 };
 
 // The first output time after `time`: a multiple of the output interval, or the end [s].

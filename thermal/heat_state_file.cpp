@@ -15,7 +15,7 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 6";
+constexpr const char* format_name = "scree heat state 7";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
@@ -23,7 +23,7 @@ using Counts = std::vector<std::int64_t>;
 // A state as plain lists: when it is written, the long ones stay where they are.
 template <class Values>
 struct Lists {
-  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings;
+  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings, matrix;
   Doubles numbers;
   Counts counts;
 };
@@ -39,6 +39,7 @@ void for_each_list(SomeLists& lists, const Use& use) {
   use("by_boundary", lists.by_boundary);
   use("by_applied", lists.by_applied);
   use("by_surroundings", lists.by_surroundings);
+  use("matrix", lists.matrix);
   use("numbers", lists.numbers);
   use("counts", lists.counts);
 }
@@ -59,9 +60,10 @@ WrittenLists pack(const HeatState& state) {
           ledger.by_boundary,
           ledger.by_applied,
           ledger.by_surroundings,
+          list_of(state.matrix.temperature),
           {state.time, state.next_step, state.time_error, state.least_step, state.largest_step, ledger.start_jump,
            ledger.stored, ledger.turnover, state.reached.least, state.reached.largest, state.given.least, state.given.largest,
-           state.lumping.largest},
+           state.lumping.largest, state.matrix.time, state.matrix.scale},
           {state.steps, state.rejected_steps, state.factorisations}};
 }
 
@@ -83,6 +85,7 @@ HeatState unpack(const ReadLists& lists) {
   state.ledger.turnover = lists.numbers.at(7);
   state.reached = {lists.numbers.at(8), lists.numbers.at(9)};
   state.given = {lists.numbers.at(10), lists.numbers.at(11)};
+  state.matrix = {vector_of(lists.matrix), lists.numbers.at(13), lists.numbers.at(14)};
   state.steps = lists.counts.at(0);
   state.rejected_steps = lists.counts.at(1);
   state.factorisations = lists.counts.at(2);
@@ -173,7 +176,7 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     const std::string found = get_text(in, "key");
     ReadLists lists;
     for_each_list(lists, [&](const char* name, auto& list) { get(in, name, list); });
-    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 13 && lists.counts.size() == 3;
+    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 15 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {
       refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "thermal/flow_network.h"
+#include "thermal/matrix_origin.h"
 #include "thermal/solver_cost.h"
 
 namespace scree::thermal {
@@ -46,6 +47,10 @@ class TimeScheme {
 
   // A step whose local error is about `allowed` [K] from a state whose past is unknown [s]; infinite if nothing changes.
   virtual double first_step(const Instant& from, double allowed) = 0;
+
+  // What a scheme keeps from one step to the next beside the state, and how it takes that up again.
+  [[nodiscard]] virtual MatrixOrigin matrix_origin() const { return {}; }
+  virtual void take_matrix(const MatrixOrigin& /*origin*/) {}
 
   // What the estimated error is multiplied with so as to bound the true one.
   [[nodiscard]] virtual double safety() const = 0;

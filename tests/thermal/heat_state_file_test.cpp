@@ -20,6 +20,7 @@ HeatState some_state() {
   state.reached = {1.0 / 11, 2.0 / 11};
   state.given = {3.0 / 11, 4.0 / 11};
   state.lumping = {state.temperature / 5, 1.0 / 13};
+  state.matrix = {state.temperature / 7, 1.0 / 17, 2.0 / 17};
   state.time_error = 1e-17;
   state.steps = 12;
   state.rejected_steps = 3;
@@ -51,6 +52,9 @@ TEST(HeatStateFile, GivesBackEveryBit) {
   EXPECT_EQ(read.given.largest, state.given.largest);
   EXPECT_EQ(read.lumping.carried, state.lumping.carried);
   EXPECT_EQ(read.lumping.largest, state.lumping.largest);
+  EXPECT_EQ(read.matrix.temperature, state.matrix.temperature);
+  EXPECT_EQ(read.matrix.time, state.matrix.time);
+  EXPECT_EQ(read.matrix.scale, state.matrix.scale);
   EXPECT_EQ(read.steps, state.steps);
   EXPECT_EQ(read.rejected_steps, state.rejected_steps);
   EXPECT_EQ(read.factorisations, state.factorisations);

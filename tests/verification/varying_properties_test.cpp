@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/find_contacts.h"
+#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
 #include "thermal/drive.h"
@@ -38,6 +39,38 @@ TEST(VaryingProperties, ASteadyBarFollowsKirchhoffsTransformToRounding) {
   EXPECT_LT(steady.ledger.relative_residual(), 1e-11);
   const auto flux = element_fluxes(mesh, varying_rock(), steady.temperature);
   for (const Point<3>& q : flux) EXPECT_LT((q - Point<3>(phi(900) - phi(300), 0, 0)).norm(), 1e-7);
+}
+
+HeatModel warming_bar() {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.05, 12, 4, 0.05)});
+  HeatOptions options = test::options_for(mesh, 300);
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 330, "hot"));
+  return make_heat_model(mesh, varying_rock(), {}, options);
+}
+
+// A matrix outlives the outputs, so a state holds what it was made from.
+TEST(VaryingProperties, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
+  const auto file = scree::test::temp_folder() / "resume.h5";
+  const HeatModel model = warming_bar();
+  TimeOptions time;
+  time.until = 200;
+  time.output_every = 20;
+  HeatRun whole(model, time);
+  std::vector<HeatState> states;
+  for (int k = 1; k <= 10; ++k) {
+    whole.advance_to(20.0 * k);
+    states.push_back(whole.state());
+  }
+  const HeatState& end = states.back();
+  EXPECT_LT(end.factorisations, end.steps / 2) << "no matrix serves for several steps";
+  for (const HeatState& from : states) {
+    write(from, "key", file);
+    HeatRun resumed(model, time, read_state(file, "key"));
+    resumed.advance_to(200);
+    EXPECT_EQ(resumed.state().temperature, end.temperature) << from.time;
+    EXPECT_EQ(resumed.state().error, end.error) << from.time;
+    EXPECT_EQ(resumed.state().steps, end.steps) << from.time;
+  }
 }
 
 TEST(VaryingProperties, AnInsulatedPairOfBodiesKeepsItsHeat) {
