@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "engine/base/huge_pages.h"
 #include "engine/base/late_library.h"
@@ -26,6 +27,9 @@ float single(double value) {
 
 class Cholesky : public DirectFactor {
  public:
+  Cholesky() : Cholesky(made_by<CholeskyFactor>("scree_make_cholesky"), false) {}
+  Cholesky(std::unique_ptr<CholeskyFactor> factor, bool analysed) : factor_(std::move(factor)), analysed_(analysed) {}
+
   FactorSize analyse(const Matrix& matrix) override {
     analysed_ = true;
     return factor_->analyse(matrix);
@@ -40,6 +44,11 @@ class Cholesky : public DirectFactor {
   Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) override {
     if (!rough_is_new_) round_values();
     return solve_.value().solve(rough_.data(), rhs);
+  }
+  [[nodiscard]] std::unique_ptr<DirectFactor> another() const override {
+    std::unique_ptr<CholeskyFactor> factor(factor_->another());
+    if (!factor) return nullptr;
+    return std::make_unique<Cholesky>(std::move(factor), true);
   }
   [[nodiscard]] bool sound() const override { return factor_->sound(); }
 
@@ -63,12 +72,12 @@ class Cholesky : public DirectFactor {
     rough_is_new_ = true;
   }
 
-  std::unique_ptr<CholeskyFactor> factor_ = made_by<CholeskyFactor>("scree_make_cholesky");
+  std::unique_ptr<CholeskyFactor> factor_;
+  bool analysed_;
   std::optional<SupernodalSolve> solve_;
   double* values_ = nullptr;
   Eigen::VectorXf rough_;  // the values in single precision, once they are asked for
   bool rough_is_new_ = false;
-  bool analysed_ = false;
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ class DirectFactor {
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   // The same by the factor's values rounded to single precision, if there are any: half as much to read.
   virtual Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) { return solve(rhs); }
+  // One more of the same analysis, which may factorise while this one does; none if that cannot be. Needs analyse().
+  [[nodiscard]] virtual std::unique_ptr<DirectFactor> another() const { return nullptr; }
   [[nodiscard]] virtual bool sound() const = 0;
 };
 
@@ -51,6 +53,8 @@ class CholeskyFactor {
   virtual double* make_room() = 0;
   // After make_room().
   [[nodiscard]] virtual SupernodalPattern pattern() const = 0;
+  // As DirectFactor::another(); before factorise().
+  [[nodiscard]] virtual CholeskyFactor* another() const = 0;
 };
 
 // Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.

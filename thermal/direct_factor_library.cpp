@@ -1,6 +1,8 @@
 #include <dlfcn.h>
 #include <omp.h>
 
+#include <memory>
+
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
 
@@ -16,6 +18,13 @@ namespace {
 void use_one_blas_thread() {
   using SetThreads = void (*)(int);
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
+}
+
+// OpenBLAS made for a single thread hands the same memory to two that call it.
+bool blas_may_be_called_at_once() {
+  using Parallel = int (*)();
+  const auto parallel = reinterpret_cast<Parallel>(dlsym(RTLD_DEFAULT, "openblas_get_parallel"));
+  return parallel == nullptr || parallel() != 0;
 }
 
 // CHOLMOD has loops of its own on four threads, however many are asked for, which spin on two processors and gain nothing.
@@ -38,6 +47,12 @@ class Supernodes : public Eigen::CholmodSupernodalLLT<DirectFactor::Matrix, Eige
     constexpr int yes = 1;  // L L^T, by supernodes, both of which it is by the analysis; packed and in order say nothing then
     cholmod_change_factor(CHOLMOD_REAL, yes, yes, yes, yes, m_cholmodFactor, &cholmod());
     return static_cast<double*>(m_cholmodFactor->x);
+  }
+  void take_analysis(const Supernodes& other) {
+    m_cholmodFactor = cholmod_copy_factor(other.m_cholmodFactor, &cholmod());
+    m_isInitialized = m_cholmodFactor != nullptr;
+    m_analysisIsOk = m_isInitialized;
+    m_info = m_isInitialized ? Eigen::Success : Eigen::NumericalIssue;
   }
 };
 
@@ -65,6 +80,12 @@ class Cholmod : public CholeskyFactor {
             integers(factor.super),     integers(factor.pi),
             integers(factor.s),         integers(factor.px),
             integers(factor.Perm)};
+  }
+  [[nodiscard]] CholeskyFactor* another() const override {
+    if (!blas_may_be_called_at_once()) return nullptr;
+    auto copy = std::make_unique<Cholmod>();
+    copy->cholesky_.take_analysis(cholesky_);
+    return copy->sound() ? copy.release() : nullptr;
   }
 
  private:

@@ -1,8 +1,12 @@
 #include "thermal/heat_solver.h"
 
+#include <future>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/threads.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -17,6 +21,8 @@ constexpr double some_digits = 1e-6;
 // Of scale K_ii over the rest of the diagonal. Up to it a factor that was rounded to single precision (6e-8) gives two digits
 // at the worst; as nearly all numbers off the diagonal have one sign, and do not cancel, it gives six (README, "Solver").
 constexpr double stiffness_of_single_precision = 1e5;
+// Of a factor, up to which there may be two: 0.4 GB, half as much again in single precision.
+constexpr double most_entries_twice = 5e7;
 
 }  // namespace
 
@@ -32,7 +38,7 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   }
   conductance_ = free.block(model.conductance);
   unit_conductance_ = free.block(model.varying->unit_conductance);
-  factor_ = make_lu();
+  ready_.factor = make_lu();
   cost_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
 }
 
@@ -44,9 +50,10 @@ void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const Solver
     return;
   }
   conductance_ = free_.lower_block(model.conductance);
-  factor_ = make_cholesky();
+  ready_.factor = make_cholesky();
   if (free_.size() == 0) return;
-  const FactorSize factor = factor_->analyse(conductance_);
+  const FactorSize factor = ready_.factor->analyse(conductance_);
+  room_beside_ = factor.entries <= most_entries_twice;
   if (asked == LinearSolver::cholesky) {
     cost_ = {cholesky_seconds(factor, use), "asked for"};
     return;
@@ -57,44 +64,58 @@ void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const Solver
 }
 
 void HeatSolver::take_multigrid(const HeatModel& model) {
-  factor_.reset();
+  ready_.factor.reset();
+  room_beside_ = false;
   conductance_ = {};
   multigrid_ = std::make_unique<Multigrid>(model.conductance, free_);
 }
 
-void HeatSolver::prepare(const Linearised& at, double scale) {
-  make_ready(free_.gather(at.capacity + scale * at.loss), at, scale);
+void HeatSolver::prepare(const Linearised& at, double scale, std::optional<double> expected) {
+  make_ready(at, purpose(at, scale), expected ? std::optional(purpose(at, *expected)) : std::nullopt);
 }
 
 void HeatSolver::prepare_steady(const Linearised& at) {
-  make_ready(free_.gather(at.loss), at, 1);
+  make_ready(at, {free_.gather(at.loss), 1}, {});
 }
 
-SparseMatrix HeatSolver::matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const {
-  SparseMatrix matrix = scale * conductance_;
+HeatSolver::Purpose HeatSolver::purpose(const Linearised& at, double scale) const {
+  return {free_.gather(at.capacity + scale * at.loss), scale};
+}
+
+SparseMatrix HeatSolver::matrix_of(const Purpose& purpose, const Linearised& at) const {
+  SparseMatrix matrix = purpose.scale * conductance_;
   if (unit_conductance_.nonZeros() > 0) {
-    const Eigen::VectorXd conductivity = scale * free_.gather(at.conductivity);
+    const Eigen::VectorXd conductivity = purpose.scale * free_.gather(at.conductivity);
     matrix += unit_conductance_ * conductivity.asDiagonal();
   }
-  matrix.diagonal() += diagonal;
+  matrix.diagonal() += purpose.diagonal;
   return matrix;
 }
 
-void HeatSolver::make_ready(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) {
-  if (free_.size() == 0) return;
-  const bool ready = factorisations_ > 0 && scale == scale_ && unit_conductance_.nonZeros() == 0 && diagonal == diagonal_;
-  if (ready) return;
-  multigrid_ ? multigrid_->prepare(diagonal, scale) : factorise(diagonal, at, scale);
-  ++factorisations_;
-  diagonal_ = diagonal;
-  scale_ = scale;
+bool HeatSolver::fits(const Ready& ready, const Purpose& purpose) const {
+  const bool made = ready.purpose.diagonal.size() > 0 && unit_conductance_.nonZeros() == 0;
+  return made && ready.purpose.scale == purpose.scale && ready.purpose.diagonal == purpose.diagonal;
 }
 
-void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) {
-  factor_->factorise(matrix_of(diagonal, at, scale));
-  const Eigen::VectorXd conductance = conductance_.diagonal();
-  rough_will_do_ = (scale * conductance.array() <= stiffness_of_single_precision * diagonal.array()).all();
-  if (factor_->sound()) return;
+void HeatSolver::make_ready(const Linearised& at, Purpose wanted, std::optional<Purpose> expected) {
+  if (free_.size() == 0 || fits(ready_, wanted)) return;
+  const bool first = factorisations_++ == 0;
+  if (multigrid_) {
+    multigrid_->prepare(wanted.diagonal, wanted.scale);
+    ready_.purpose = std::move(wanted);
+    return;
+  }
+  if (first && expected && room_beside_ && threads_in_use() > 1) beside_.factor = ready_.factor->another();
+  if (beside_.factor) std::swap(ready_, beside_);
+  if (fits(ready_, wanted)) return;
+  std::future<void> next;
+  if (beside_.factor && expected && !fits(beside_, *expected)) {
+    next = std::async(std::launch::async, [&] { factorise(beside_, at, std::move(*expected)); });
+  }
+  const double scale = wanted.scale;
+  factorise(ready_, at, std::move(wanted));
+  if (next.valid()) next.get();
+  if (ready_.factor->sound()) return;
   throw RunError(
       fmt::format("The heat equations of {} nodes could not be factorised for a step scale of {:g} s. Look for blocks of "
                   "almost no volume (scree check names the mesh), or for too little memory; heat.solver: multigrid and the "
@@ -102,16 +123,26 @@ void HeatSolver::factorise(const Eigen::VectorXd& diagonal, const Linearised& at
                   free_.size(), scale));
 }
 
+// What is not sound is of no purpose.
+void HeatSolver::factorise(Ready& ready, const Linearised& at, Purpose purpose) const {
+  ready.purpose = {};
+  ready.factor->factorise(matrix_of(purpose, at));
+  if (!ready.factor->sound()) return;
+  const Eigen::VectorXd conductance = conductance_.diagonal();
+  ready.rough_will_do = (purpose.scale * conductance.array() <= stiffness_of_single_precision * purpose.diagonal.array()).all();
+  ready.purpose = std::move(purpose);
+}
+
 Eigen::MatrixXd HeatSolver::solve(const Eigen::MatrixXd& rhs) const {
   if (free_.size() == 0) return rhs;
   if (multigrid_) return iterate(rhs, full_accuracy);
   SCREE_EXPECT(factorisations_ > 0);
-  return checked(factor_->solve(rhs));
+  return checked(ready_.factor->solve(rhs));
 }
 
 Eigen::MatrixXd HeatSolver::estimate(const Eigen::MatrixXd& rhs) const {
   if (multigrid_ && free_.size() > 0) return iterate(rhs, some_digits);
-  return rough_will_do_ ? checked(factor_->estimate(rhs)) : solve(rhs);
+  return ready_.rough_will_do ? checked(ready_.factor->estimate(rhs)) : solve(rhs);
 }
 
 Eigen::MatrixXd HeatSolver::iterate(const Eigen::MatrixXd& rhs, double accuracy) const {
@@ -121,7 +152,7 @@ Eigen::MatrixXd HeatSolver::iterate(const Eigen::MatrixXd& rhs, double accuracy)
 }
 
 Eigen::MatrixXd HeatSolver::checked(Eigen::MatrixXd solution) const {
-  if ((factor_ && !factor_->sound()) || !solution.allFinite()) {
+  if ((ready_.factor && !ready_.factor->sound()) || !solution.allFinite()) {
     throw RunError("The linear solver gave no finite temperatures. Check conductivities, capacities and loads for huge values");
   }
   return solution;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "thermal/direct_factor.h"
@@ -22,8 +23,9 @@ class HeatSolver {
   // Refers to both. Throws InputError if multigrid is asked for and cannot do it.
   HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use);
 
-  // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if that cannot be done.
-  void prepare(const Linearised& at, double scale);
+  // Prepares for C + scale J [J/K]; scale in seconds. On two threads and more the matrix of the scale expected next, if any, is
+  // factorised at the same time. Throws RunError if it cannot be done.
+  void prepare(const Linearised& at, double scale, std::optional<double> expected = {});
 
   // For J alone [W/K].
   void prepare_steady(const Linearised& at);
@@ -38,28 +40,41 @@ class HeatSolver {
   // Whether solutions are as exact as an iteration makes them, instead of as rounding.
   [[nodiscard]] bool iterates() const { return multigrid_ != nullptr; }
 
-  [[nodiscard]] std::int64_t factorisations() const { return factorisations_; }  // or set-ups of the multigrid
+  // Or set-ups of the multigrid: how often it was made ready for another matrix, the same for any number of threads.
+  [[nodiscard]] std::int64_t factorisations() const { return factorisations_; }
   [[nodiscard]] std::string name() const;
   [[nodiscard]] const SolverCost& cost() const { return cost_; }
 
  private:
+  // A matrix is diag(diagonal) + scale (K + U diag(k)).
+  struct Purpose {
+    Eigen::VectorXd diagonal;
+    double scale = 0;
+  };
+  struct Ready {
+    Purpose purpose;
+    std::unique_ptr<DirectFactor> factor;
+    bool rough_will_do = false;  // whether single precision is enough for estimates
+  };
+
   void choose(const HeatModel& model, LinearSolver asked, const SolverUse& use);
   void take_multigrid(const HeatModel& model);
-  [[nodiscard]] SparseMatrix matrix_of(const Eigen::VectorXd& diagonal, const Linearised& at, double scale) const;
-  void make_ready(const Eigen::VectorXd& diagonal, const Linearised& at, double scale);
-  void factorise(const Eigen::VectorXd& diagonal, const Linearised& at, double scale);
+  [[nodiscard]] Purpose purpose(const Linearised& at, double scale) const;
+  [[nodiscard]] SparseMatrix matrix_of(const Purpose& purpose, const Linearised& at) const;
+  [[nodiscard]] bool fits(const Ready& ready, const Purpose& purpose) const;
+  void make_ready(const Linearised& at, Purpose wanted, std::optional<Purpose> expected);
+  void factorise(Ready& ready, const Linearised& at, Purpose purpose) const;
   [[nodiscard]] Eigen::MatrixXd iterate(const Eigen::MatrixXd& rhs, double accuracy) const;
   [[nodiscard]] Eigen::MatrixXd checked(Eigen::MatrixXd solution) const;
 
   const FreeNodes& free_;
   SparseMatrix conductance_;              // of the free nodes, for a factor: the lower triangle, or all of it beside U
   SparseMatrix unit_conductance_;         // all of U's
-  std::unique_ptr<DirectFactor> factor_;  // this
+  Ready ready_;                           // this
   std::unique_ptr<Multigrid> multigrid_;  // or that
+  Ready beside_;                          // the factor of the matrix before or of the one expected next, if there is room
+  bool room_beside_ = false;
   SolverCost cost_;
-  Eigen::VectorXd diagonal_;  // what it is ready for
-  double scale_ = 0;
-  bool rough_will_do_ = false;  // whether single precision is enough for estimates
   std::int64_t factorisations_ = 0;
 };
 

@@ -25,8 +25,9 @@ StepForecast forecast_steps(double stable, const TimeOptions& options) {
   forecast.steps = 1 + std::log(span) / growth + later;
   forecast.lengths = 1 + std::log2(span);  // each is half or twice the one before
   // A stabilised step h takes 2 sqrt(h/stable) products; those that grow make a geometric series.
-  const double longest = 2 * std::sqrt(every / stable);
-  forecast.products = longest * (std::sqrt(growth) / (1 - std::exp(-growth / 2)) + later);
+  const double products_of_longest = 2 * std::sqrt(every / stable);
+  forecast.products = products_of_longest * (std::sqrt(growth) / (1 - std::exp(-growth / 2)) + later);
+  forecast.longest = every;
   return forecast;
 }
 
@@ -47,7 +48,7 @@ double WorkDone::work(double time) const {
 }
 
 SolverUse use_of_linear_steps(const StepForecast& forecast) {
-  return {forecast.lengths, 4 * forecast.steps};
+  return {forecast.lengths, 4 * forecast.steps, forecast.longest};
 }
 
 SolverUse use_of_newton_steps(const StepForecast& forecast) {

@@ -2,6 +2,7 @@
 // bit.
 #include "thermal/supernodal_solve.h"
 
+#include <future>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -151,6 +152,28 @@ TEST(SupernodalSolve, TakesTheNextMatrixOfTheSamePattern) {
   factor->factorise(2 * matrix);
   EXPECT_LT((2 * factor->solve(rhs) - first).lpNorm<Eigen::Infinity>(), 1e-12);
   EXPECT_LT((2 * factor->estimate(rhs) - estimated).lpNorm<Eigen::Infinity>(), 1e-6);
+}
+
+TEST(CholeskyFactors, OfOneAnalysisMadeAtOnceHaveTheBitsOfThoseMadeAlone) {
+  const Matrix matrix = box_of(28, 27, 26, 9);
+  const Eigen::MatrixXd rhs = right_sides(matrix.rows(), 1);
+  const auto made_alone = [&](double scale) {
+    const auto factor = make_cholesky();
+    factor->factorise(scale * matrix);
+    return factor->solve(rhs);
+  };
+  const Eigen::MatrixXd once = made_alone(1), thrice = made_alone(3);
+  const auto first = make_cholesky();
+  first->analyse(matrix);
+  const auto second = first->another();
+  if (!second) GTEST_SKIP() << "this BLAS may not be called by two threads";
+  for (int round = 0; round < 5; ++round) {
+    auto beside = std::async(std::launch::async, [&] { second->factorise(3 * matrix); });
+    first->factorise(matrix);
+    beside.get();
+    EXPECT_EQ(first->solve(rhs), once);
+    EXPECT_EQ(second->solve(rhs), thrice);
+  }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 SCREE = ROOT / "build/release/bin/scree"
 DEBIAN_PYTHON = "/usr/bin/python3"  # the one that Debian's Python packages are installed for
-PACKAGES = ("python3-dolfinx", "freefem++", "calculix-ccx", "yade", "liggghts", "libbullet3.24", "libopenblas0-serial")
+PACKAGES = ("python3-dolfinx", "freefem++", "calculix-ccx", "yade", "liggghts", "libbullet3.24", "libopenblas0-pthread")
 COLOURS = ("#c23b22", "#e08a1e", "#8c564b", "#3d4a8f", "#5b8c5a", "#7a6fb0", "#777777", "#c77ba8", "#4aa3a3")  # of programs in the plots
 TIMES = ("processor", "wall", "loop")  # what rows state in seconds
 
