@@ -19,7 +19,8 @@ namespace {
 constexpr double full_accuracy = 1e-10;
 constexpr double some_digits = 1e-6;
 // Of scale K_ii over the rest of the diagonal. Up to it a factor that was rounded to single precision (6e-8) gives two digits
-// at the worst; as nearly all numbers off the diagonal have one sign, and do not cancel, it gives six (README, "Solver").
+// at the worst; as nearly all numbers off the diagonal have one sign, and do not cancel, it gives six (README,
+// "Which steps and which solver").
 constexpr double stiffness_of_single_precision = 1e5;
 // Of a factor, up to which there may be two: 0.4 GB, half as much again in single precision.
 constexpr double most_entries_twice = 5e7;
