@@ -12,8 +12,8 @@ namespace scree::thermal {
 namespace {
 constexpr int most_iterations = 500;
 
-// BoomerAMG's options by the numbers of its manual, measured in README, "Tried: multigrid". Sweeps of Gauss and Seidel, forward on the
-// way down and backward on the way up, keep the cycle symmetric, which conjugate gradients need.
+// BoomerAMG's options by the numbers of its manual, measured in README, "Tried: multigrid". Sweeps of Gauss and Seidel, forward
+// on the way down and backward on the way up, keep the cycle symmetric, which conjugate gradients need.
 constexpr int hmis = 10;
 constexpr int extended_i = 6;
 constexpr int most_interpolants = 4;
