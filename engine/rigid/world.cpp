@@ -53,7 +53,7 @@ double length_scale(const mesh::BlockMesh<3>& mesh) {
   return count > 0 ? sum / count : 1.0;
 }
 
-// The fractions are those measured to work on the pile of 25 mm blocks: 0.25 mm, 0.2 mm, 50 um and, the last, 30 um
+// The fractions are those measured to work on the pile of 25 mm blocks: 0.25 mm, 0.2 mm, 50 um and, the last, 15 um
 // (README.md).
 ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& options) {
   const double scale = length_scale(mesh);
