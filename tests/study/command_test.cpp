@@ -241,6 +241,7 @@ TEST(StudyCommand, TellsAProgramHowFarItIsAndHowItEnded) {
   ASSERT_EQ(ended.status, 0) << ended.text;
   std::istringstream lines(ended.text);
   std::vector<nlohmann::json> events;
+  SCOPED_TRACE(ended.text);
   for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line));
   EXPECT_EQ(events.front()["event"], "start");
   EXPECT_EQ(events.back()["event"], "end");
