@@ -32,12 +32,13 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
-    held -= duration * balance_.heating_at(model_.fixed_nodes, stage.temperature, drive);
+    const Eigen::VectorXd* tangent = stage.tangent ? &before : nullptr;
+    held -= duration * balance_.heating_at(model_.fixed_nodes, stage.temperature, drive, tangent);
     if (shares_) held -= duration * shares_->shares(balance_, stage.temperature, drive);
     for (std::size_t l = 0; l < model_.loads.size(); ++l) ledger.by_applied[l] += duration * drive.by_load[l];
     ledger.turnover += duration * drive.load_sizes.sum();
     for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
-      const auto [heat, size] = balance_.exchanged(e, stage.temperature, drive);
+      const auto [heat, size] = balance_.exchanged(e, stage.temperature, drive, tangent);
       ledger.by_surroundings[e] += duration * heat;
       ledger.turnover += duration * size;
     }

@@ -1,12 +1,17 @@
 #include "thermal/heat_balance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "thermal/exchange.h"
 
 namespace scree::thermal {
 
 namespace {
+
+constexpr int most_iterations = 60;  // of Newton's for a temperature
+constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
 // Of a curve, continued below 0 K by its value there, where an iteration may stray.
 double integral(const Curve& curve, double temperature) {
@@ -29,6 +34,33 @@ Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, c
   return result;
 }
 
+// Into the exchange's node `i`, which is node `row`; along the tangent at other temperatures, if there are any [W].
+double exchanged_at(Exchange::Law law, const ExchangeRates& rates, Eigen::Index i, int row, const Eigen::VectorXd& temperature,
+                    const Eigen::VectorXd* tangent) {
+  if (tangent == nullptr) return exchanged_heat(law, rates, i, temperature[row]);
+  const double at = (*tangent)[row];
+  return exchanged_heat(law, rates, i, at) - exchange_slope(law, rates, i, at) * (temperature[row] - at);
+}
+
+// Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration, which halves what is left
+// where it would leave it.
+double integrated_to(const Curve& curve, double from, double rise) {
+  if (curve.constant()) return from + rise / *curve.constant();
+  const double wanted = integral(curve, from) + rise;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = -low;
+  double at = from + rise / value(curve, from);
+  for (int iteration = 0; iteration < most_iterations && std::isfinite(at); ++iteration) {
+    const double over = integral(curve, at) - wanted;
+    (over > 0 ? high : low) = at;
+    double next = at - over / value(curve, at);
+    if (!(next > low && next < high)) next = std::isfinite(low + high) ? 0.5 * (low + high) : next;
+    if (std::abs(next - at) <= rounding * std::abs(at)) return next;
+    at = next;
+  }
+  return at;
+}
+
 }  // namespace
 
 HeatBalance::HeatBalance(const HeatModel& model, Sums sums)
@@ -39,9 +71,13 @@ HeatBalance::HeatBalance(const HeatModel& model, Sums sums)
 Eigen::VectorXd HeatBalance::heating(const Eigen::VectorXd& temperature, const Drive& drive) const {
   Eigen::VectorXd heat = driven(temperature, drive) - flows_.leaving(temperature);
   if (!unit_flows_.empty()) {
-    heat -= unit_flows_.leaving(at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral));
+    heat -= unit_flows_.leaving(conducted(temperature));
   }
   return heat;
+}
+
+Eigen::VectorXd HeatBalance::conducted(const Eigen::VectorXd& temperature) const {
+  return at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral);
 }
 
 Eigen::VectorXd HeatBalance::driven(const Eigen::VectorXd& temperature, const Drive& drive) const {
@@ -57,13 +93,17 @@ Eigen::VectorXd HeatBalance::driven(const Eigen::VectorXd& temperature, const Dr
 }
 
 Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
-                                        const Drive& drive) const {
+                                        const Drive& drive, const Eigen::VectorXd* tangent) const {
   Eigen::VectorXd heat(static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     heat[static_cast<Eigen::Index>(i)] = drive.load[nodes[i].value()] - flows_.leaving(nodes[i], temperature);
   }
   if (!unit_flows_.empty()) {
-    const Eigen::VectorXd phi = at_nodes(*model_.varying, &VaryingProperties::conductivity, temperature, integral);
+    Eigen::VectorXd phi = conducted(tangent == nullptr ? temperature : *tangent);
+    if (tangent != nullptr) {
+      const Eigen::VectorXd slope = at_nodes(*model_.varying, &VaryingProperties::conductivity, *tangent, value);
+      phi += slope.cwiseProduct(temperature - *tangent);
+    }
     for (std::size_t i = 0; i < nodes.size(); ++i) heat[static_cast<Eigen::Index>(i)] -= unit_flows_.leaving(nodes[i], phi);
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
@@ -72,7 +112,7 @@ Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const 
     for (const NodeId node : exchange.on.nodes) {
       const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
       if (found != nodes.end() && *found == node) {
-        heat[found - nodes.begin()] += exchanged_heat(exchange.law, drive.exchanges[e], row, temperature[node.value()]);
+        heat[found - nodes.begin()] += exchanged_at(exchange.law, drive.exchanges[e], row, node.value(), temperature, tangent);
       }
       ++row;
     }
@@ -96,6 +136,18 @@ double HeatBalance::stored_at(NodeId node, const Eigen::VectorXd& from, const Ei
 
 double HeatBalance::stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
   return model_.varying ? stored(from, to).sum() : model_.capacity.cwiseProduct(to - from).sum();
+}
+
+Eigen::VectorXd HeatBalance::temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat) const {
+  if (!model_.varying) return from + heat.cwiseQuotient(model_.capacity);
+  const VaryingProperties& properties = *model_.varying;
+  Eigen::VectorXd result(from.size());
+  for (const NodeId node : properties.material.ids()) {
+    const int row = node.value();
+    const Curve& specific_heat = properties.specific_heat[properties.material[node]];
+    result[row] = integrated_to(specific_heat, from[row], heat[row] / properties.mass[row]);
+  }
+  return result;
 }
 
 Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive) {
@@ -132,13 +184,13 @@ Eigen::VectorXd HeatBalance::lost(const Eigen::VectorXd& change, const Linearise
   return heat;
 }
 
-HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature,
-                                              const Drive& drive) const {
+HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive,
+                                              const Eigen::VectorXd* tangent) const {
   const Exchange& with = model_.exchanges[exchange];
   Exchanged all;
   Eigen::Index row = 0;
   for (const NodeId node : with.on.nodes) {
-    const double heat = exchanged_heat(with.law, drive.exchanges[exchange], row++, temperature[node.value()]);
+    const double heat = exchanged_at(with.law, drive.exchanges[exchange], row++, node.value(), temperature, tangent);
     all.heat += heat;
     all.size += std::abs(heat);
   }

@@ -36,9 +36,9 @@ class HeatBalance {
   // What of F comes from outside, loads and exchanges.
   [[nodiscard]] Eigen::VectorXd driven(const Eigen::VectorXd& temperature, const Drive& drive) const;
 
-  // F of some nodes, in ascending order, one entry each.
+  // F of some nodes, in ascending order, one entry each; with `tangent`, along the tangent at its temperatures.
   [[nodiscard]] Eigen::VectorXd heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
-                                           const Drive& drive) const;
+                                           const Drive& drive, const Eigen::VectorXd* tangent = nullptr) const;
 
   // Heat that a change of temperature stores in each node [J].
   [[nodiscard]] Eigen::VectorXd stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
@@ -46,20 +46,26 @@ class HeatBalance {
   [[nodiscard]] double stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
   [[nodiscard]] double stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
+  // The temperatures at which each node has stored so much heat [J], up from `from`; what is not finite stays so.
+  [[nodiscard]] Eigen::VectorXd temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat) const;
+
   [[nodiscard]] Linearised linearised(const Eigen::VectorXd& temperature, const Drive& drive) const;
 
   // J times a small change of temperature, at fixed nodes too [W].
   [[nodiscard]] Eigen::VectorXd lost(const Eigen::VectorXd& change, const Linearised& at) const;
 
-  // K, without U.
+  // K, without U; and U, and what it multiplies, Phi of each node [W/m].
   [[nodiscard]] const FlowNetwork& flows() const { return flows_; }
+  [[nodiscard]] const FlowNetwork& unit_flows() const { return unit_flows_; }
+  [[nodiscard]] Eigen::VectorXd conducted(const Eigen::VectorXd& temperature) const;
 
-  // Through one exchange.
+  // Through one exchange; `tangent` as for heating_at().
   struct Exchanged {
     double heat = 0;  // [W]
     double size = 0;  // the same without signs [W]
   };
-  [[nodiscard]] Exchanged exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive) const;
+  [[nodiscard]] Exchanged exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive,
+                                    const Eigen::VectorXd* tangent = nullptr) const;
 
  private:
   const HeatModel& model_;

@@ -1,20 +1,17 @@
-// Stabilised explicit steps: RKL2, the Runge-Kutta-Legendre scheme of second order (Meyer, Balsara and Aslam, J. Comput. Phys.
-// 257, 2014, eqs. 15 to 17). s products with K carry a step up to (s^2 + s - 2)/4 times as far as the stable one of eq. (8):
-// where joints are no stiffer than blocks, that is less work than a factorisation.
+// The scheme of rkl2.h, along the tangent at the start of each step: with C, J and F of the temperatures T0 there,
+//   C D' = F(T0) - J D,    H(T1) - H(T0) = C D(h),
+// H the enthalpy. Where nothing depends on temperature that is the equation itself, and T1 = T0 + D(h). Where something does,
+// it leaves out what bends within a step, O(h^3) as the scheme's own error, and the operator whose largest eigenvalue sets the
+// number of stages is known beforehand and holds for the whole step. Heat that flows along the tangent is what the ledger
+// books, so it closes.
 //
-// In increments D_j = Y_j - T0, for a drive that does not change and with L = C^-1 (K + B), B the convection:
-//   D_j = mu D_j-1 + nu D_j-2 - mu~ h L D_j-1 + (mu~ + gamma~) h C^-1 F(T0),   D_1 = mu~_1 h C^-1 F(T0).
-// The step is also h C^-1 F of the stages' weighted mean, whose difference to T0 obeys S_j = mu S_j-1 + nu S_j-2 + mu~ D_j-1:
-// that is what the ledger is given.
-//
-// Local error. The polynomial's third coefficient is c = (N - 6)/(9 (N - 2)), N = s^2 + s, so a step leaves out (1/6 - c) h^3
-// T''', while H = (T0 - T1) + h/2 (T0' + T1') is (1/4 - c) h^3 T''': the estimate is their quotient times -H. Over the negative
-// axis it is never below a mode's true error, and far above it for modes that are faster than the step (Sommeijer, Shampine and
-// Verwer, J. Comput. Appl. Math. 88, 1997, use the like for RKC). The error is carried by the scheme itself as a second column
-// of each product.
+// Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J D) is half of F''(D, D),
+// so -h/3 C^-1 times that is added. Errors are of T1, C(T0)/C(T1) times what they are of D. The global error is carried by the
+// scheme itself as a second column of each product.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 
@@ -24,6 +21,7 @@
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/problems.h"
+#include "thermal/rkl2.h"
 #include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"
 
@@ -31,41 +29,10 @@ namespace scree::thermal {
 
 namespace {
 
+using namespace rkl2;
+
 // Temperatures and error side by side: a product reads the matrix once for both.
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-
-constexpr int least_stages = 3;
-
-int stages_for(double length, double stable) {
-  const double ratio = length / stable;  // (s^2 + s - 2)/4
-  const int stages = static_cast<int>(std::ceil(0.5 * (std::sqrt(9 + 16 * ratio) - 1)));
-  return std::max(least_stages, stages | 1);  // an odd number damps the fastest modes
-}
-
-struct Coefficients {
-  double mu, nu, product, start;  // of D_j-1, D_j-2, -h L D_j-1 and h C^-1 F(T0)
-};
-
-// Of stage j >= 2 of s.
-Coefficients coefficients(int j, int stages) {
-  const auto b = [](int i) { return i < 2 ? 1.0 / 3 : (i * i + i - 2.0) / (2.0 * i * (i + 1)); };
-  const double w1 = 4.0 / (stages * stages + stages - 2.0);
-  const double mu = (2.0 * j - 1) / j * b(j) / b(j - 1);
-  const double nu = -(j - 1.0) / j * b(j) / b(j - 2);
-  const double product = mu * w1;
-  return {mu, nu, product, product - (1 - b(j - 1)) * product};
-}
-
-double first_coefficient(int stages) {
-  return 4.0 / (3 * (stages * stages + stages - 2.0));
-}
-
-// What takes h^3 T''' of H to that of the step.
-double estimate_of(int stages) {
-  const double n = stages * stages + stages;
-  const double third = (n - 6) / (9 * (n - 2));
-  return (third - 1.0 / 6) / (0.25 - third);
-}
 
 // S at the nodes that the ledger reads, which are ascending.
 class WatchedMean {
@@ -98,29 +65,27 @@ class WatchedMean {
 
 class StabilisedScheme : public TimeScheme {
  public:
-  StabilisedScheme(const HeatModel& model, double stable)
-      : inverse_(model.capacity.cwiseInverse()),
+  StabilisedScheme(const HeatModel& model, StableSteps stable)
+      : model_(model),
         drives_(model),
         balance_(model, Sums::plain),
-        linear_(balance_.linearised(model.initial, drives_.at(0))),
-        stable_(stable),
+        stable_(stable.at_start().step),
         sharing_(model.shared_capacity ? &*model.shared_capacity : nullptr, Sums::plain),
         watched_(ledger_nodes(model)) {
-    for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
-    for (Columns* columns : {&start_, &newer_, &older_, &rates_, &shared_}) {
-      if ((columns == &rates_ || columns == &shared_) && sharing_.empty()) continue;
-      columns->resize(inverse_.size(), 2);
-      prefer_huge_pages(columns->data(), static_cast<std::size_t>(columns->size()) * sizeof(double));
-    }
+    linearise(model.initial);
+    if (!has_constant_properties(model)) changing_ = std::move(stable);
+    resize({&start_, &newer_, &older_});
+    if (by_rates()) resize({&rates_, &beside_});
   }
 
   Step step(const Instant& from, double length) override {
-    const int stages = std::isinf(stable_) ? least_stages : stages_for(length, stable_);
+    if (changing_) follow(from.temperature);
+    const int stages = stages_for(length, stable_);
     start(from, length);
     older_.setZero();
     newer_ = first_coefficient(stages) * start_;
     WatchedMean mean(watched_);
-    sharing_.empty() ? advance(stages, length, mean) : advance_sharing(stages, length, mean);
+    by_rates() ? advance_by_rates(stages, length, mean) : advance(stages, length, mean);
     Step result;
     result.change = newer_.col(0);
     rates(newer_, length, older_);  // h L D
@@ -131,12 +96,14 @@ class StabilisedScheme : public TimeScheme {
       result.local_error = std::max(result.local_error, std::abs(local));
       result.error[row] = from.error[row] + newer_(row, 1) + local;
     }
-    result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages)}};
+    result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages), changing_.has_value()}};
+    if (changing_) leave_tangent(from, length, estimate, result);
     return result;
   }
 
   // The local error of a short step is h^3 T'''/18 at most.
   double first_step(const Instant& from, double allowed) override {
+    if (changing_) follow(from.temperature);
     start({from.time, from.temperature, Eigen::VectorXd::Zero(inverse_.size())}, 1);
     newer_ = start_;
     for (int order = 2; order <= 3; ++order) {
@@ -151,17 +118,64 @@ class StabilisedScheme : public TimeScheme {
   [[nodiscard]] Sums sums() const override { return Sums::plain; }
   [[nodiscard]] double cost_exponent() const override { return 0.5; }
   [[nodiscard]] std::string name() const override {
-    return fmt::format("RKL2 (stabilised explicit, second order) with steps from the tolerance; stable Euler step {:.3g} s",
-                       stable_);
+    if (!changing_) return fmt::format("{} with steps from the tolerance; stable Euler step {:.3g} s", scheme_name, stable_);
+    return fmt::format(
+        "{} along the tangent at each step's start, steps from the tolerance; stable Euler step {:.3g} s at first", scheme_name,
+        changing_->at_start().step);
   }
 
  private:
+  static constexpr const char* scheme_name = "RKL2 (stabilised explicit, second order)";
+
+  void resize(std::initializer_list<Columns*> all) const {
+    for (Columns* columns : all) {
+      columns->resize(inverse_.size(), 2);
+      prefer_huge_pages(columns->data(), static_cast<std::size_t>(columns->size()) * sizeof(double));
+    }
+  }
+
+  void linearise(const Eigen::VectorXd& temperature) {
+    linear_ = balance_.linearised(temperature, drives_.at(0));
+    inverse_ = linear_.capacity.cwiseInverse();
+    for (const NodeId node : model_.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
+  }
+
+  void follow(const Eigen::VectorXd& temperature) {
+    linearise(temperature);
+    stable_ = changing_->at(linear_);
+  }
+
+  // What the step's change is of the enthalpy, it becomes of the temperature, and so do the errors.
+  void leave_tangent(const Instant& from, double length, double estimate, Step& result) {
+    const Drive& drive = drives_.at(from.time);
+    const Eigen::VectorXd heat = linear_.capacity.cwiseProduct(newer_.col(0));
+    result.change = balance_.temperature_after(from.temperature, heat) - from.temperature;
+    for (const NodeId node : model_.fixed_nodes) result.change[node.value()] = 0;
+    const Eigen::VectorXd end = from.temperature + result.change;
+    const Eigen::VectorXd heating = balance_.heating(end, drive);
+    const Eigen::VectorXd capacity = capacity_at(model_, end);
+    result.local_error = 0;
+    for (Eigen::Index row = 0; row < start_.rows(); ++row) {
+      const double along = start_(row, 0) - older_(row, 0);
+      const double bent = length * inverse_[row] * heating[row] - (inverse_[row] > 0 ? along : 0);
+      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
+      const double shrinks = linear_.capacity[row] / capacity[row];
+      result.local_error = std::max(result.local_error, std::abs(shrinks * local));
+      result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
+    }
+  }
+
   // h C^-1 F of the temperatures, and of the error, which nothing drives: the flows of both in one product.
   void start(const Instant& from, double length) {
     newer_.col(0) = from.temperature;
     newer_.col(1) = from.error;
     const Eigen::VectorXd driven = balance_.driven(from.temperature, drives_.at(from.time));
-    balance_.flows().for_each_flow<2>(newer_.data(), [&](int row, const double* flow) {
+    if (conducts_by_temperature()) {
+      older_.col(0) = balance_.conducted(from.temperature);
+      older_.col(1) = linear_.conductivity.cwiseProduct(from.error);
+      lay_beside(older_);
+    }
+    for_each_flow(newer_, [&](int row, const Pair& flow) {
       const double scale = length * inverse_[row];
       start_(row, 0) = scale * (driven[row] - flow[0]);
       start_(row, 1) = -scale * (flow[1] + linear_.loss[row] * newer_(row, 1));
@@ -171,11 +185,33 @@ class StabilisedScheme : public TimeScheme {
 
   // h L x.
   void rates(const Columns& x, double length, Columns& result) {
-    balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) {
+    if (conducts_by_temperature()) {
+      conducted_ = linear_.conductivity.asDiagonal() * x;
+      lay_beside(conducted_);
+    }
+    for_each_flow(x, [&](int row, const Pair& flow) {
       const double scale = length * inverse_[row];
       for (int c = 0; c < 2; ++c) result(row, c) = scale * (flow[c] + linear_.loss[row] * x(row, c));
     });
     share(result);
+  }
+
+  // The flows of K, and with them those that lie beside.
+  template <class Use>
+  void for_each_flow(const Columns& x, const Use& use) {
+    if (conducts_by_temperature()) {
+      balance_.flows().for_each_flow<2>(x.data(),
+                                        [&](int row, const double* flow) { use(row, ConstPair(flow) + pair(beside_, row)); });
+    } else {
+      balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) { use(row, ConstPair(flow)); });
+    }
+  }
+
+  // Those of U, where a conductivity depends on temperature.
+  void lay_beside(const Columns& conducted) {
+    balance_.unit_flows().for_each_flow<2>(conducted.data(), [&](int row, const double* flow) {
+      Eigen::Map<Pair>(beside_.data() + 2 * static_cast<std::ptrdiff_t>(row)) = ConstPair(flow);
+    });
   }
 
   // Space of fourth order: rates become (1 + C^-1 B) times themselves (fourth_order.h), by a second product each. Nothing to do
@@ -183,10 +219,10 @@ class StabilisedScheme : public TimeScheme {
   void share(Columns& rates) {
     if (sharing_.empty()) return;
     sharing_.for_each_flow<2>(rates.data(), [&](int row, const double* flow) {
-      Eigen::Map<Pair>(shared_.data() + 2 * static_cast<std::ptrdiff_t>(row)) =
+      Eigen::Map<Pair>(beside_.data() + 2 * static_cast<std::ptrdiff_t>(row)) =
           pair(rates, row) + inverse_[row] * ConstPair(flow);
     });
-    rates.swap(shared_);
+    rates.swap(beside_);
   }
 
   // Stages 2 to `stages`, which is odd, each in the place of the one before the last.
@@ -212,7 +248,8 @@ class StabilisedScheme : public TimeScheme {
     });
   }
 
-  void advance_sharing(int stages, double length, WatchedMean& mean) {
+  // The same where a stage takes more than a product with K.
+  void advance_by_rates(int stages, double length, WatchedMean& mean) {
     for (int j = 2; j <= stages; ++j) {
       const Coefficients with = coefficients(j, stages);
       mean.advance(j, with, newer_, 0, static_cast<int>(newer_.rows()));
@@ -222,37 +259,43 @@ class StabilisedScheme : public TimeScheme {
     }
   }
 
+  [[nodiscard]] bool conducts_by_temperature() const { return !balance_.unit_flows().empty(); }
+  [[nodiscard]] bool by_rates() const { return !sharing_.empty() || conducts_by_temperature(); }
+
   using Pair = Eigen::Array2d;
   using ConstPair = Eigen::Map<const Pair>;
   static ConstPair pair(const Columns& columns, int row) {
     return ConstPair(columns.data() + 2 * static_cast<std::ptrdiff_t>(row));
   }
 
-  Eigen::VectorXd inverse_;  // of the capacity, 0 for a fixed node [K/J]
+  const HeatModel& model_;
   Drives drives_;
   HeatBalance balance_;
-  Linearised linear_;    // the same at all times
-  double stable_;        // of eq. (8) [s]
-  FlowNetwork sharing_;  // B; empty in second order
+  Linearised linear_;                    // at the step's start
+  Eigen::VectorXd inverse_;              // of its capacity, 0 for a fixed node [K/J]
+  double stable_;                        // of eq. (8), there [s]
+  std::optional<StableSteps> changing_;  // nothing if that is the same at all temperatures
+  FlowNetwork sharing_;                  // B; empty in second order
   std::vector<NodeId> watched_;
   // Of the step: h C^-1 F at its start, and D of the last two stages.
   Columns start_, newer_, older_;
-  Columns rates_, shared_;  // in fourth order
+  // Where a stage takes more than a product with K: h L D, what a second product gave, and k D.
+  Columns rates_, beside_, conducted_;
 };
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<double> stable) {
+std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable) {
   if (!can_be_stabilised(model)) {
     throw InputError(problem("heat.integrator", "stabilised_explicit",
-                             "must not be asked to do radiation, or properties, coefficients or conditions that change in time",
+                             "must not be asked to do conditions that change in time, nor what is not linear in fourth order",
                              "Use the implicit integrator"));
   }
-  return std::make_unique<StabilisedScheme>(model, stable ? *stable : stable_step(model).step);
+  return std::make_unique<StabilisedScheme>(model, stable ? *std::move(stable) : StableSteps(model));
 }
 
 bool can_be_stabilised(const HeatModel& model) {
-  return has_constant_properties(model) && !varies_in_time(model);
+  return !varies_in_time(model) && (!model.shared_capacity || has_constant_properties(model));
 }
 
 }  // namespace scree::thermal

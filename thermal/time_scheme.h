@@ -10,6 +10,7 @@
 #include "thermal/flow_network.h"
 #include "thermal/matrix_origin.h"
 #include "thermal/solver_cost.h"
+#include "thermal/stable_step.h"
 
 namespace scree::thermal {
 
@@ -26,6 +27,7 @@ struct Stage {
   double weight = 1;            // they add up to 1
   double time = 0;              // [s]
   Eigen::VectorXd temperature;  // [K]
+  bool tangent = false;         // whether its flows are those of the tangent at the step's start
 };
 
 struct Step {
@@ -78,13 +80,14 @@ std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearS
                                                  const SolverUse& use = {});
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
-// `stable`: stable_step() of the model, if it is known already [s].
-std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<double> stable = {});
+// `stable`: those of the model, if they are known already.
+std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable = {});
 
 // The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them (and in fourth
 // order those joined to these), and those that exchange heat with surroundings. Ascending.
 std::vector<NodeId> ledger_nodes(const HeatModel& model);
 
+// Conditions must stay, and in fourth order all must be linear.
 bool can_be_stabilised(const HeatModel& model);
 
 }  // namespace scree::thermal
