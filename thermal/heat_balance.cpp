@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/threads.h"
 #include "thermal/exchange.h"
 
 namespace scree::thermal {
@@ -23,15 +24,29 @@ double value(const Curve& curve, double temperature) {
 
 using CurveLists = std::vector<Curve> VaryingProperties::*;
 
-// f(curve of the node's material, temperature of the node) of each node.
+// f(curve of the node's material, row of the node) of each node.
+template <class Value>
+Eigen::VectorXd at_rows(const VaryingProperties& properties, CurveLists list, const Value& f) {
+  const std::vector<Curve>& curves = properties.*list;
+  Eigen::VectorXd result(properties.mass.size());
+  const auto evaluate = [&](Eigen::Index row) {
+    const NodeId node(static_cast<std::size_t>(row));
+    result[row] = f(curves[static_cast<std::size_t>(properties.material[node])], row);
+  };
+  if (!std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return curve.can_be_shared(); })) {
+    for (Eigen::Index row = 0; row < result.size(); ++row) evaluate(row);
+    return result;
+  }
+#pragma omp parallel for schedule(static) if (result.size() >= rows_worth_sharing)
+  for (Eigen::Index row = 0; row < result.size(); ++row) evaluate(row);
+  return result;
+}
+
+// f(curve, temperature of the node) of each.
 template <class Value>
 Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, const Eigen::VectorXd& temperature,
                          const Value& f) {
-  Eigen::VectorXd result(temperature.size());
-  for (const NodeId node : properties.material.ids()) {
-    result[node.value()] = f((properties.*list)[properties.material[node]], temperature[node.value()]);
-  }
-  return result;
+  return at_rows(properties, list, [&](const Curve& curve, Eigen::Index row) { return f(curve, temperature[row]); });
 }
 
 // Into the exchange's node `i`, which is node `row`; along the tangent at other temperatures, if there are any [W].
@@ -141,13 +156,9 @@ double HeatBalance::stored_in_all(const Eigen::VectorXd& from, const Eigen::Vect
 Eigen::VectorXd HeatBalance::temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat) const {
   if (!model_.varying) return from + heat.cwiseQuotient(model_.capacity);
   const VaryingProperties& properties = *model_.varying;
-  Eigen::VectorXd result(from.size());
-  for (const NodeId node : properties.material.ids()) {
-    const int row = node.value();
-    const Curve& specific_heat = properties.specific_heat[properties.material[node]];
-    result[row] = integrated_to(specific_heat, from[row], heat[row] / properties.mass[row]);
-  }
-  return result;
+  return at_rows(properties, &VaryingProperties::specific_heat, [&](const Curve& specific_heat, Eigen::Index row) {
+    return integrated_to(specific_heat, from[row], heat[row] / properties.mass[row]);
+  });
 }
 
 Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive) {

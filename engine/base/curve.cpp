@@ -20,6 +20,7 @@ struct Curve::Form {
 
   [[nodiscard]] virtual double value(double temperature) const = 0;
   [[nodiscard]] virtual double integral(double temperature) const = 0;
+  [[nodiscard]] virtual bool can_be_shared() const = 0;
 };
 
 namespace {
@@ -29,6 +30,7 @@ class Tabulated : public Curve::Form {
   explicit Tabulated(LinearTable table) : table_(std::move(table)) {}
   [[nodiscard]] double value(double temperature) const override { return table_(temperature); }
   [[nodiscard]] double integral(double temperature) const override { return table_.integral(temperature); }
+  [[nodiscard]] bool can_be_shared() const override { return true; }
 
  private:
   LinearTable table_;
@@ -55,6 +57,8 @@ class Formula : public Curve::Form {
     if (!std::isfinite(result)) refuse(result, temperature);
     return result;
   }
+
+  [[nodiscard]] bool can_be_shared() const override { return false; }
 
  private:
   // Sums are kept up to here; the way from here to a higher temperature is one interval of Gauss's rule.
@@ -155,6 +159,10 @@ double Curve::integral(double temperature) const {
 
 std::optional<double> Curve::constant() const {
   return form_ ? std::nullopt : std::optional(constant_);
+}
+
+bool Curve::can_be_shared() const {
+  return !form_ || form_->can_be_shared();
 }
 
 }  // namespace scree

@@ -37,6 +37,9 @@ class Curve {
 
   [[nodiscard]] std::optional<double> constant() const;
 
+  // Whether threads evaluate it at the same time, without an exception. A formula's evaluations take turns.
+  [[nodiscard]] bool can_be_shared() const;
+
   struct Form;  // anything but a number
 
  private:

@@ -14,6 +14,7 @@ LinearTable::LinearTable(std::vector<double> places, std::vector<double> values)
   for (std::size_t i = 1; i < places_.size(); ++i) {
     sums_.push_back(sums_.back() + 0.5 * (values_[i] + values_[i - 1]) * (places_[i] - places_[i - 1]));
   }
+  to_zero_ = integral_from_first(0);
 }
 
 // The interval that begins at the last place that is not above; `place` is between the ends.
@@ -39,7 +40,7 @@ double LinearTable::integral_from_first(double place) const {
 }
 
 double LinearTable::integral(double place) const {
-  return integral_from_first(place) - integral_from_first(0);
+  return integral_from_first(place) - to_zero_;
 }
 
 std::size_t LinearTable::places_between(double begin, double end) const {

@@ -28,6 +28,7 @@ class LinearTable {
   std::vector<double> places_;
   std::vector<double> values_;
   std::vector<double> sums_;  // integral from the first place to each
+  double to_zero_ = 0;        // and to place 0
 };
 
 }  // namespace scree

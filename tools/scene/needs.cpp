@@ -56,9 +56,11 @@ bool varies_in_time(const thermal::HeatFlux& flux) {
 bool varies_in_time(const thermal::HeatFlow& flow) {
   return flow.flow.varies_in_time();
 }
-template <class Exchange>
-bool varies_in_time(const Exchange& exchange) {
-  return exchange.surroundings.varies_in_time();
+bool varies_in_time(const thermal::Convection& convection) {
+  return convection.coefficient.varies_in_time() || convection.surroundings.varies_in_time();
+}
+bool varies_in_time(const thermal::Radiation& radiation) {
+  return radiation.emissivity.varies_in_time() || radiation.surroundings.varies_in_time();
 }
 
 // Which condition changes in time; empty: none.
@@ -73,14 +75,14 @@ std::string changing_condition(const thermal::HeatOptions& heat) {
   return {};
 }
 
-// Explicit steps are for linear equations, stabilised ones for conditions that stay as well.
+// Euler's steps and those of fourth order in space are for linear equations, stabilised ones for conditions that stay.
 void check_integrator(const Scene& scene, const Checked& heat, Problems& problems) {
   using enum thermal::Integrator;
   const thermal::TimeOptions& time = scene.heat->time;
   const bool fourth = scene.heat->space_order == thermal::SpaceOrder::fourth;
   const bool stabilised = fourth || time.integrator == stabilised_explicit;
   if (time.steady || (!stabilised && time.integrator != explicit_euler)) return;
-  std::string reason = changing_equations(scene);
+  std::string reason = fourth || !stabilised ? changing_equations(scene) : std::string();
   if (reason.empty() && stabilised) reason = changing_condition(*scene.heat);
   if (reason.empty()) return;
   const Checked& asked = heat.at(fourth ? "space_order" : "integrator");

@@ -1,0 +1,221 @@
+// Stabilised explicit steps where properties depend on temperature or heat is radiated (stabilised_scheme.cpp).
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "tests/temp_folder.h"
+#include "tests/thermal/builders.h"
+#include "tests/verification/formula.h"
+#include "thermal/drive.h"
+#include "thermal/heat_run.h"
+#include "thermal/stable_step.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+namespace {
+
+struct Rock {
+  const char* name;
+  Curve conductivity;
+  Curve specific_heat;
+};
+
+Curve table(std::vector<double> places, std::vector<double> values) {
+  return Curve::from_table(LinearTable(std::move(places), std::move(values)));
+}
+
+// Ice in the pores: a tenth of the mass takes up its latent heat over 4 K.
+Curve melting() {
+  return table({271, 273, 275}, {800, 17500, 800});
+}
+
+std::vector<Rock> rocks() {
+  return {{"constant", 2.0, 800.0},
+          {"c of a table", 2.0, table({200, 400, 900}, {600, 900, 1200})},
+          {"c of a formula", 2.0, test::curve("400 + T")},
+          {"k of a table", table({200, 400, 900}, {4, 2, 1}), 800.0},
+          {"both of formulas", test::curve("1 + 0.01*T"), test::curve("400 + T")}};
+}
+
+Table<MaterialId, Material> of(const Rock& rock) {
+  Material material = test::rock();
+  material.conductivity = rock.conductivity;
+  material.specific_heat = rock.specific_heat;
+  return Table<MaterialId, Material>({material});
+}
+
+// Two bars with a joint; the left end is hot, the right one radiates and convects.
+HeatModel radiating_pair(const Rock& rock, double beta = 10) {
+  auto right = test::bar<2>(0.05, 4, 2, 0.025);
+  right.low[0] = 0.05;
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.05, 4, 2, 0.025), right});
+  HeatOptions options = test::options_for(mesh, 500);
+  options.joint.law = StiffnessFactor{beta};
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 700, "hot"));
+  Boundary end = test::hold(BodyId{1}, 0.1, 0, "sky");
+  end.condition = Radiation{0.9, 250};
+  options.boundaries.push_back(end);
+  end.name = "wind";
+  end.condition = Convection{20, 280};
+  options.boundaries.push_back(end);
+  return make_heat_model(mesh, of(rock), test::matching_contacts(mesh), options);
+}
+
+Instant start_of(const HeatModel& model) {
+  Instant at;
+  at.temperature = held(model, model.initial, Drives(model).at(0));
+  at.error = Eigen::VectorXd::Zero(model.initial.size());
+  return at;
+}
+
+Instant after(TimeScheme& scheme, Instant at, double length, int count) {
+  const double begin = at.time;
+  for (int n = 0; n < count; ++n) {
+    at.time = begin + n * length / count;
+    const Step step = scheme.step(at, length / count);
+    at.temperature += step.change;
+    at.error = step.error;
+  }
+  at.time = begin + length;
+  return at;
+}
+
+TEST(TangentSteps, AreOfSecondOrderWhateverDependsOnTemperature) {
+  for (const Rock& rock : rocks()) {
+    if (rock.specific_heat.can_be_shared() && !rock.specific_heat.constant()) continue;  // a table has kinks
+    const HeatModel model = radiating_pair(rock);
+    const Instant smooth = after(*make_implicit_scheme(model), start_of(model), 200, 200);
+    const auto scheme = make_stabilised_scheme(model);
+    const Eigen::VectorXd exact = after(*make_implicit_scheme(model), smooth, 400, 4096).temperature;
+    const auto error = [&](int count) { return (after(*scheme, smooth, 400, count).temperature - exact).norm(); };
+    EXPECT_NEAR(std::log2(error(128) / error(256)), 2, 0.2) << rock.name;
+    EXPECT_NEAR(std::log2(error(256) / error(512)), 2, 0.1) << rock.name;
+  }
+}
+
+// From a sudden start; the state is that of implicit steps a hundred times as exact.
+void expect_kept(const HeatModel& model, double until, const std::string& name) {
+  TimeOptions time;
+  time.until = until;
+  time.output_every = until / 4;
+  time.tolerance = 1e-3;
+  time.integrator = Integrator::implicit;
+  HeatRun exact(model, time);
+  exact.advance_to(until);
+  for (const double tolerance : {1.0, 0.1}) {
+    time.tolerance = tolerance;
+    time.integrator = Integrator::stabilised_explicit;
+    HeatRun run(model, time);
+    run.advance_to(until);
+    const double error = (run.state().temperature - exact.state().temperature).lpNorm<Eigen::Infinity>();
+    EXPECT_LE(error, run.state().error.lpNorm<Eigen::Infinity>() + exact.state().time_error) << name << " " << tolerance;
+    EXPECT_TRUE(run.within_tolerance()) << name << " " << tolerance;
+    EXPECT_LT(run.state().ledger.relative_residual(), 1e-12) << name << " " << tolerance;
+    EXPECT_EQ(run.state().factorisations, 0);
+  }
+}
+
+TEST(TangentSteps, KeepTheirToleranceAndTheirLedger) {
+  for (const Rock& rock : rocks()) {
+    for (const double beta : {0.1, 100.0}) expect_kept(radiating_pair(rock, beta), 600, rock.name);
+  }
+}
+
+TEST(TangentSteps, KeepTheirToleranceWhereSomethingMelts) {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.1, 8, 2, 0.025)});
+  HeatOptions options = test::options_for(mesh, 260);
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 300, "warm"));
+  expect_kept(make_heat_model(mesh, of({"melting", 2.0, melting()}), {}, options), 4000, "melting");
+}
+
+TEST(TangentSteps, AreThoseOfConstantPropertiesWhereNothingBends) {
+  const HeatModel constant = radiating_pair({"constant", 2.0, 800.0});
+  const HeatModel flat = radiating_pair({"flat", table({200, 900}, {2, 2}), table({200, 900}, {800, 800})});
+  ASSERT_TRUE(flat.varying && flat.varying->unit_conductance.nonZeros() > 0);
+  Instant at = start_of(constant);
+  at.error = 1e-3 * at.temperature.array().sin();
+  for (const NodeId node : constant.fixed_nodes) at.error[node.value()] = 0;
+  for (const double length : {0.1, 10.0, 300.0}) {
+    const Step a = make_stabilised_scheme(constant)->step(at, length);
+    const Step b = make_stabilised_scheme(flat)->step(at, length);
+    EXPECT_LT((a.change - b.change).lpNorm<Eigen::Infinity>(), 1e-10) << length;
+    EXPECT_LT((a.error - b.error).lpNorm<Eigen::Infinity>(), 1e-10) << length;
+    EXPECT_NEAR(a.local_error, b.local_error, 1e-10) << length;
+  }
+}
+
+TEST(TangentSteps, GoOnFromAFileToTheBit) {
+  const auto file = scree::test::temp_folder() / "tangent.h5";
+  const HeatModel model = radiating_pair(rocks().back());
+  TimeOptions time;
+  time.integrator = Integrator::stabilised_explicit;
+  time.until = 60;
+  time.output_every = 20;
+  HeatRun whole(model, time);
+  whole.advance_to(20);
+  write(whole.state(), "key", file);
+  whole.advance_to(60);
+  HeatRun resumed(model, time, read_state(file, "key"));
+  resumed.advance_to(60);
+  EXPECT_EQ(resumed.state().temperature, whole.state().temperature);
+  EXPECT_EQ(resumed.state().error, whole.state().error);
+  EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual());
+}
+
+TEST(TangentSteps, AreChosenWhereTheyCostLess) {
+  const auto solver = [](double beta) {
+    TimeOptions time;
+    time.until = 600;
+    time.output_every = 100;
+    return HeatRun(radiating_pair(rocks().back(), beta), time).solver();
+  };
+  EXPECT_THAT(solver(0.1), testing::HasSubstr("along the tangent"));
+  EXPECT_THAT(solver(1e7), testing::HasSubstr("Newton's iteration"));
+}
+
+// The magnitudes of J, whatever the temperatures are.
+TEST(StableSteps, AreBoundedAtEveryTemperatureByTheLargestEigenvalue) {
+  for (const Rock& rock : rocks()) {
+    const HeatModel model = radiating_pair(rock);
+    const StableSteps steps(model);
+    const HeatBalance balance(model);
+    for (const double warmer : {0.0, -200.0, 300.0}) {
+      const Eigen::VectorXd temperature = model.initial.array() + warmer * model.places.row(0).transpose().array() / 0.1;
+      const Linearised state = balance.linearised(temperature, Drives(model).at(0));
+      Eigen::MatrixXd magnitudes = Eigen::MatrixXd(model.conductance).cwiseAbs();
+      if (state.conductivity.size() > 0) {
+        magnitudes += Eigen::MatrixXd(model.varying->unit_conductance).cwiseAbs() * state.conductivity.asDiagonal();
+      }
+      magnitudes.diagonal() += state.loss;
+      Eigen::VectorXd inverse = state.capacity.cwiseInverse();
+      for (const NodeId node : model.fixed_nodes) inverse[node.value()] = 0;
+      const Eigen::MatrixXd rates = inverse.asDiagonal() * magnitudes;
+      const double largest = rates.eigenvalues().cwiseAbs().maxCoeff();
+      EXPECT_LE(steps.at(state), (1 + 1e-12) * 2 / largest) << rock.name << " " << warmer;
+      EXPECT_GE(steps.at(state), 0.6 * 2 / largest) << rock.name << " " << warmer;
+    }
+  }
+}
+
+TEST(TemperatureAfter, HeatIsThatWhichStoresIt) {
+  std::vector<Rock> all = rocks();
+  all.push_back({"melting", 2.0, melting()});
+  all.push_back({"jump", 2.0, test::curve("T < 300 ? 500 : 2000")});
+  for (const Rock& rock : all) {
+    const HeatModel model = radiating_pair(rock);
+    const HeatBalance balance(model);
+    for (const double from : {10.0, 272.0, 299.0, 500.0, 3000.0}) {
+      for (const double to : {1.0, 272.9, 301.0, 1500.0}) {
+        const auto all_at = [&](double t) { return Eigen::VectorXd::Constant(model.initial.size(), t).eval(); };
+        const Eigen::VectorXd heat = balance.stored(all_at(from), all_at(to));
+        const Eigen::VectorXd found = balance.temperature_after(all_at(from), heat);
+        EXPECT_LT((found.array() - to).abs().maxCoeff(), 1e-12 * (from + to)) << rock.name << " " << from << " " << to;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scree::thermal
