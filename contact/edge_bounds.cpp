@@ -43,9 +43,9 @@ unsigned edges_within(const Heights<3>& heights, float distance) {
 // Edges of a tetrahedron that may stand out along a direction perpendicular to an edge of another, whose heights above the
 // planes of the tetrahedron these are: the normals of their faces lean to either side of that edge (the arc between them on the
 // sphere of directions meets its great circle), or are within `allowed`, a height, of being perpendicular to it.
-unsigned standing_out(const Heights<3>& heights, const ElementEdge& edge, float allowed) {
+EdgeSenses standing_out(const Heights<3>& heights, const ElementEdge& edge, float allowed) {
   const Lanes rise = heights[edge.end] - heights[edge.start];
-  return edges_between[bits(rise >= -allowed)][bits(rise <= allowed)];
+  return edges_leaning[bits(rise >= -allowed)][bits(rise <= allowed)];
 }
 
 // No edge of a shell rises by more above a plane that leans as little as touch_edge allows.
@@ -62,14 +62,19 @@ EdgePairs near_edges(const ShellPair<3>& pair) {
   const unsigned second = edges_within(pair.above_first, distance) & edges_of_faces[pair.second.faces];
   EdgePairs near = pairs_of_first(first) & pairs_of_second(second);
   if (near == 0 || !pair.first.whole || !pair.second.whole) return near;
-  // Both must stand out from the whole of their blocks.
+  // Both must stand out from the whole of their blocks, and along the gap each away from the other. The cross product of their
+  // directions, that of the first's edge first, points from the first to the second or back.
   const float of_first = allowed_rise(pair.first, pair.way), of_second = allowed_rise(pair.second, pair.way);
-  EdgePairs out_of_first = 0, out_of_second = 0;
+  EdgePairs first_along = 0, first_against = 0, second_along = 0, second_against = 0;
   for (std::size_t e = 0; e < element_edges.size(); ++e) {
-    out_of_first |= spread[standing_out(pair.above_first, element_edges[e], of_second)] << e;
-    out_of_second |= EdgePairs{standing_out(pair.above_second, element_edges[e], of_first)} << 6 * e;
+    const EdgeSenses out_of_first = standing_out(pair.above_first, element_edges[e], of_second);
+    const EdgeSenses out_of_second = standing_out(pair.above_second, element_edges[e], of_first);
+    first_along |= spread[out_of_first.along] << e;
+    first_against |= spread[out_of_first.against] << e;
+    second_along |= EdgePairs{out_of_second.along} << 6 * e;
+    second_against |= EdgePairs{out_of_second.against} << 6 * e;
   }
-  return near & out_of_first & out_of_second;
+  return near & ((first_along & second_along) | (first_against & second_against));
 }
 
 bool may_face(const Shell<3>& owner, const ElementEdge& edge, int beside, const Shell<3>& other, const ElementEdge& target) {

@@ -39,20 +39,42 @@ inline constexpr std::array<std::uint8_t, 16> edges_of_faces = [] {
   return edges;
 }();
 
-// The edges that have one of their faces in a first set and the other in a second, one bit each.
-inline constexpr std::array<std::array<std::uint8_t, 16>, 16> edges_between = [] {
-  std::array<std::array<std::uint8_t, 16>, 16> between{};
-  for (unsigned first = 0; first < 16; ++first) {
-    for (unsigned second = 0; second < 16; ++second) {
+// Is the cross product of the outward normals of an edge's faces, that beside its first vertex aside with the second's, along
+// the edge (in a positively oriented tetrahedron)? Or against it.
+constexpr bool turns_along(const ElementEdge& edge) {
+  const std::array<int, 4> order{edge.start, edge.end, edge.beside[0], edge.beside[1]};
+  bool even = true;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) even ^= order[j] > order[i];
+  }
+  return even;
+}
+
+// Edges that stand out along a direction perpendicular to them and to another edge: the cross product of both, own edge first,
+// or its opposite.
+struct EdgeSenses {
+  std::uint8_t along = 0;    // one bit each
+  std::uint8_t against = 0;
+};
+
+// Of the faces whose normals may lean along the other edge, and of those that may lean against it, by their bits. The normals
+// of an edge's faces n, m and the other edge b give n (m . b) - m (n . b) = b x (n x m): with n . b < 0 < m . b that is a
+// direction between the two, in which the edge stands out, and n x m lies along the edge or against it.
+inline constexpr std::array<std::array<EdgeSenses, 16>, 16> edges_leaning = [] {
+  std::array<std::array<EdgeSenses, 16>, 16> leaning{};
+  for (unsigned along = 0; along < 16; ++along) {
+    for (unsigned against = 0; against < 16; ++against) {
       for (unsigned e = 0; e < 6; ++e) {
-        const auto& [left, right] = element_edges[e].beside;
-        const bool either = (((first >> left & second >> right) | (first >> right & second >> left)) & 1u) != 0;
-        auto& edges = between[first][second];
-        edges = static_cast<std::uint8_t>(edges | (either ? 1u : 0u) << e);
+        const auto& [n, m] = element_edges[e].beside;
+        const unsigned rising = along >> m & against >> n & 1u, falling = along >> n & against >> m & 1u;
+        auto& [to, back] = leaning[along][against];
+        const bool turned = turns_along(element_edges[e]);
+        to = static_cast<std::uint8_t>(to | (turned ? falling : rising) << e);
+        back = static_cast<std::uint8_t>(back | (turned ? rising : falling) << e);
       }
     }
   }
-  return between;
+  return leaning;
 }();
 
 }  // namespace scree::contact
