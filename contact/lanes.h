@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 namespace scree::contact {
 
@@ -27,14 +26,6 @@ inline Lanes most(const Lanes& a, const Lanes& b) {
 }
 inline Lanes absolute(const Lanes& a) {
   return most(a, -a);
-}
-
-inline Lanes root(const Lanes& square) {
-#ifdef __SSE__
-  return __builtin_ia32_sqrtps(square);
-#else
-  return Lanes{std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2]), std::sqrt(square[3])};
-#endif
 }
 
 // Bit i for lane i.

@@ -53,7 +53,7 @@ constexpr bool turns_along(const ElementEdge& edge) {
 // Edges that stand out along a direction perpendicular to them and to another edge: the cross product of both, own edge first,
 // or its opposite.
 struct EdgeSenses {
-  std::uint8_t along = 0;    // one bit each
+  std::uint8_t along = 0;  // one bit each
   std::uint8_t against = 0;
 };
 

@@ -13,38 +13,27 @@ SCREE_INLINE LanePoints<3> scaled(const LanePoints<3>& points, float unit) {
   return {unit * points[0], unit * points[1], unit * points[2]};
 }
 
-// What is asked of an edge of a tetrahedron, a row of three axes each.
-struct EdgeRows {
-  Lanes start;
-  Lanes way;                    // to the end
-  std::array<Lanes, 2> thirds;  // from the start to the third corner of the k-th face beside the edge
-};
-using Edges = std::array<EdgeRows, 6>;
+// The vertices that are asked of two edges, as places in the words below.
+enum Corner { start, end, left, right, of_second };  // left and right: the vertices beside the edge
 
-SCREE_INLINE void fill(const LanePoints<3>& vertices, Edges& edges) {
-  const auto at = transposed(vertices[0], vertices[1], vertices[2], Lanes{});
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto& [start, end, beside] = element_edges[e];
-    // The face beside one of the two other vertices has the other one as its third corner.
-    edges[e] = {at[start], at[end] - at[start], {at[beside[1]] - at[start], at[beside[0]] - at[start]}};
-  }
-}
-
-// The numbers of both edges by that of their bit in EdgePairs.
-struct EdgePair {
-  std::uint8_t of_first, of_second;
-};
-constexpr std::array<EdgePair, 64> edges_of_pairs = [] {
-  std::array<EdgePair, 64> pairs{};
-  for (unsigned i = 0; i < 36; ++i) pairs[i] = {static_cast<std::uint8_t>(i / 6), static_cast<std::uint8_t>(i % 6)};
-  return pairs;
+// Of a pair of edges by the number of its bit in EdgePairs the vertices of both, four bits each.
+constexpr std::array<std::uint32_t, 64> vertices_of_pairs = [] {
+  std::array<std::uint32_t, 64> words{};
+  const auto word = [](const ElementEdge& edge) {
+    const std::array<int, of_second> vertices{edge.start, edge.end, edge.beside[0], edge.beside[1]};
+    std::uint32_t all = 0;
+    for (int i = 0; i < of_second; ++i) all |= static_cast<std::uint32_t>(vertices[i]) << 4 * i;
+    return all;
+  };
+  for (unsigned i = 0; i < 36; ++i) words[i] = word(element_edges[i / 6]) | word(element_edges[i % 6]) << 4 * of_second;
+  return words;
 }();
 
 // As many pairs of an edge of the first with one of the second as there are lanes.
 template <class Numbers>
 struct SomePairs {
   std::array<std::uint8_t, count_of<Numbers>> numbers;  // of their bits in EdgePairs
-  std::array<const EdgeRows*, count_of<Numbers>> of_first, of_second;
+  MaskOf<Numbers> vertices;                             // words as above
 };
 
 // Where the lines of some pairs of edges come closest.
@@ -55,6 +44,8 @@ struct Crossing {
   Numbers along_second;          // the same on the edge of the second
   Points<Numbers> across_first;  // from the edge of the first sideways, in the plane of both
   Points<Numbers> across_second;
+  Points<Numbers> start_first;  // of the edges
+  Points<Numbers> start_second;
   Numbers off_first, off_second;  // of along_first and along_second, by rounding
   unsigned near = 0;              // bit i: the pair i may touch, as far as this tells
 };
@@ -76,20 +67,19 @@ class EdgeBounds {
         off_(2 * unit * way.rounding),
         kept_(1 - indentation),
         moved_(indentation / 3),
-        aside_(2 * moved_ * unit * std::max(first.radius, second.radius)) {
-    fill(scaled(first.at, unit), first_);
-    fill(scaled(vertices_from(second, way), unit), second_);
-  }
+        aside_(2 * moved_ * unit * std::max(first.radius, second.radius)),
+        first_(scaled(first.at, unit)),
+        second_(scaled(vertices_from(second, way), unit)) {}
 
   // Takes some pairs from a set; what follows the last of them is of no matter.
   SCREE_INLINE void take(EdgePairs& set, SomePairs<Numbers>& pairs) const {
+    std::array<int, count_of<Numbers>> words;
     for (int i = 0; i < count_of<Numbers>; ++i) {
       pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(set) & 63);
-      const auto [of_first, of_second] = edges_of_pairs[pairs.numbers[i]];
-      pairs.of_first[i] = &first_[of_first];
-      pairs.of_second[i] = &second_[of_second];
+      words[i] = static_cast<int>(vertices_of_pairs[pairs.numbers[i]]);
       set &= set - 1;
     }
+    pairs.vertices = together(words);
   }
 
   // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other
@@ -101,8 +91,10 @@ class EdgeBounds {
     if (lines.near == 0) return;
     const Numbers moved_along = moved_ * lines.square, kept = kept_ * lines.square;
     for (std::size_t k = 0; k < 2; ++k) {
-      const Points<Numbers> a = columns<Numbers>([&](int i) { return pairs.of_first[i]->thirds[k]; });
-      const Points<Numbers> b = columns<Numbers>([&](int i) { return pairs.of_second[i]->thirds[k]; });
+      // The face beside one of the two other vertices has the other one as its third corner.
+      const int third = k == 0 ? right : left;
+      const Points<Numbers> a = minus(of_first(pairs, third), lines.start_first);
+      const Points<Numbers> b = minus(of_second_shell(pairs, third), lines.start_second);
       const Numbers own_first = lines.along_first - moved_along - moved_ * dot(a, lines.across_second);
       const Numbers target_second = lines.along_second + moved_ * dot(a, lines.across_first);
       touching.of_first[k] =
@@ -115,11 +107,20 @@ class EdgeBounds {
   }
 
  private:
+  // A vertex of the edge of the first of each pair, and of the second.
+  SCREE_INLINE Points<Numbers> of_first(const SomePairs<Numbers>& pairs, int corner) const {
+    return picked<Numbers>(first_, pairs.vertices >> 4 * corner);
+  }
+  SCREE_INLINE Points<Numbers> of_second_shell(const SomePairs<Numbers>& pairs, int corner) const {
+    return picked<Numbers>(second_, pairs.vertices >> 4 * (of_second + corner));
+  }
+
   SCREE_INLINE void cross_lines(const SomePairs<Numbers>& pairs, Crossing<Numbers>& lines) const {
-    const Points<Numbers> a = columns<Numbers>([&](int i) { return pairs.of_first[i]->way; });
-    const Points<Numbers> b = columns<Numbers>([&](int i) { return pairs.of_second[i]->way; });
-    const Points<Numbers> between =
-        columns<Numbers>([&](int i) { return pairs.of_second[i]->start - pairs.of_first[i]->start; });
+    lines.start_first = of_first(pairs, start);
+    lines.start_second = of_second_shell(pairs, start);
+    const Points<Numbers> a = minus(of_first(pairs, end), lines.start_first);
+    const Points<Numbers> b = minus(of_second_shell(pairs, end), lines.start_second);
+    const Points<Numbers> between = minus(lines.start_second, lines.start_first);
     const Points<Numbers> normal = cross(a, b);
     lines.square = dot(normal, normal);
     lines.across_first = cross(normal, a);
@@ -127,11 +128,11 @@ class EdgeBounds {
     lines.along_first = dot(between, lines.across_second);
     lines.along_second = -dot(between, lines.across_first);
     const Numbers a_square = dot(a, a), b_square = dot(b, b), volume = dot(between, normal);
-    const Numbers a_length = root(a_square), b_length = root(b_square), off = off_ * a_length * b_length;
+    const Numbers a_length = most_length(a), b_length = most_length(b), off = off_ * a_length * b_length;
     lines.off_first = off * b_length;
     lines.off_second = off * a_length;
     // Beside the place of the edges that of a semi-edge: its shift from the start times a vector across.
-    const Numbers aside = aside_ * root(lines.square);
+    const Numbers aside = aside_ * most_length(normal);
     constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
     // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
     const auto near_lines = volume * volume <= 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
@@ -140,12 +141,12 @@ class EdgeBounds {
                       within(lines.along_second, lines.square, lines.off_second + aside * a_length));
   }
 
-  Edges first_, second_;
-  float distance_;  // between the lines of edges that touch, at most
-  float off_;       // of a length, by rounding
-  float kept_;      // length of a semi-edge, over that of its edge
-  float moved_;     // share of each corner of its face in a semi-spring
-  float aside_;     // the third corner of a face moves its semi-edges by no more
+  float distance_;                // between the lines of edges that touch, at most
+  float off_;                     // of a length, by rounding
+  float kept_;                    // length of a semi-edge, over that of its edge
+  float moved_;                   // share of each corner of its face in a semi-spring
+  float aside_;                   // the third corner of a face moves its semi-edges by no more
+  LanePoints<3> first_, second_;  // their vertices as seen from the first
 };
 
 // Adds to a set those of some pairs whose bits are set.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "contact/lanes.h"
 #include "engine/base/wide.h"
@@ -18,12 +19,6 @@ using WideMask = int __attribute__((vector_size(32)));
 
 SCREE_INLINE WideLanes joined(const Lanes& low, const Lanes& high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-SCREE_INLINE WideLanes root(const WideLanes& square) {
-  const Lanes low = __builtin_shufflevector(square, square, 0, 1, 2, 3);
-  const Lanes high = __builtin_shufflevector(square, square, 4, 5, 6, 7);
-  return joined(root(low), root(high));
 }
 
 // Bit i for lane i.
@@ -50,28 +45,45 @@ SCREE_INLINE Points<Numbers> cross(const Points<Numbers>& a, const Points<Number
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// At least the length of a vector and at most 1.16 times as much, without a root, which is slow and cannot be taken of eight
+// numbers where functions are compiled for four as well.
+template <class Numbers>
+SCREE_INLINE Numbers most_length(const Points<Numbers>& vector) {
+  const auto larger = [](const Numbers& a, const Numbers& b) { return a > b ? a : b; };
+  const auto absolute = [&](const Numbers& a) { return larger(a, -a); };
+  const Numbers x = absolute(vector[0]), y = absolute(vector[1]), z = absolute(vector[2]);
+  return 0.5F * (x + y + z + larger(x, larger(y, z)));
+}
+
 // Is a place from the start to the end, or not more than `beyond` off?
 template <class Numbers>
 SCREE_INLINE auto within(const Numbers& along, const Numbers& end, const Numbers& beyond) {
   return (along >= -beyond) & (along <= end + beyond);
 }
 
-// Rows of three axes, row(i) each, to columns.
-template <class Numbers, class Row>
-SCREE_INLINE Points<Numbers> columns(const Row& row) {
+template <class Numbers>
+SCREE_INLINE Points<Numbers> minus(const Points<Numbers>& a, const Points<Numbers>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+template <class Numbers>
+using MaskOf = std::conditional_t<count_of<Numbers> == lane_count, LaneMask, WideMask>;
+
+SCREE_INLINE LaneMask together(const std::array<int, lane_count>& n) {
+  return LaneMask{n[0], n[1], n[2], n[3]};
+}
+SCREE_INLINE WideMask together(const std::array<int, 2 * lane_count>& n) {
+  return WideMask{n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+}
+
+// In each lane that of four points whose number the lowest two bits say; others may be set.
+template <class Numbers>
+SCREE_INLINE Points<Numbers> picked(const LanePoints<3>& points, const MaskOf<Numbers>& numbers) {
   if constexpr (count_of<Numbers> == lane_count) {
-    const auto all = transposed(row(0), row(1), row(2), row(3));
-    return {all[0], all[1], all[2]};
+    return {shuffled(points[0], numbers), shuffled(points[1], numbers), shuffled(points[2], numbers)};
   } else {
-    const WideLanes a = joined(row(0), row(4)), b = joined(row(1), row(5)), c = joined(row(2), row(6)),
-                    d = joined(row(3), row(7));
-    const WideLanes low_ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-    const WideLanes low_cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
-    const WideLanes high_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-    const WideLanes high_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
-    return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 8, 9, 4, 5, 12, 13),
-            __builtin_shufflevector(low_ab, low_cd, 2, 3, 10, 11, 6, 7, 14, 15),
-            __builtin_shufflevector(high_ab, high_cd, 0, 1, 8, 9, 4, 5, 12, 13)};
+    const auto twice = [&](const Lanes& axis) { return __builtin_shuffle(joined(axis, axis), numbers); };
+    return {twice(points[0]), twice(points[1]), twice(points[2])};
   }
 }
 
