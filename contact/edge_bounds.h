@@ -2,13 +2,12 @@
 #pragma once
 
 #include "contact/edge_pairs.h"
-#include "contact/near_shells.h"
+#include "contact/shell.h"
 #include "contact/tetrahedron.h"
 
 namespace scree::contact {
 
-// Which edges of two shells come so near, and lie so, that they may touch.
-EdgePairs near_edges(const ShellPair<3>& pair);
+inline constexpr float flat_sine_bound = 0.018F;  // a little more than an edge may be risen above in touch_edge
 
 // Pairs of edges of which the semi-edge in the k-th face `beside` the edge of the first may touch the edge of the second; and
 // of which the semi-edge beside the edge of the second may touch that of the first, likewise.

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "contact/edge_bounds.h"
 #include "contact/tetrahedron.h"
@@ -131,13 +132,9 @@ class EdgeSearch::Asking {
   std::vector<Possible> possible_;
 };
 
-EdgeSearch::EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table)
-    : surface_(surface), options_(options), table_(table), near_(chunk_count(table.shells.size())) {}
-
-void EdgeSearch::look_at(std::size_t chunk, const ShellPair<3>& pair) {
-  const EdgePairs edges = near_edges(pair);
-  if (edges != 0) near_[chunk].push_back({pair.first_place, pair.second_place, edges});
-}
+EdgeSearch::EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
+                       std::vector<std::vector<NearEdges>> near)
+    : surface_(surface), options_(options), table_(table), near_(std::move(near)) {}
 
 std::vector<TakenEdge> EdgeSearch::taken(const std::vector<FaceId>& spring_targets) {
   const std::vector<BlockId> spring_blocks = blocks_of(surface_, spring_targets);

@@ -19,24 +19,23 @@ struct TakenEdge {
   EdgeTouch touch;
 };
 
-// Is shown all pairs of shells that are near, then asked.
+// Two shells and those of their edges that may touch.
+struct NearEdges {
+  std::uint32_t first;  // places
+  std::uint32_t second;
+  EdgePairs edges;
+};
+
 class EdgeSearch {
  public:
-  EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table);
-
-  // From any thread, one at a time for each chunk.
-  void look_at(std::size_t chunk, const ShellPair<3>& pair);
+  // `near`: all pairs of shells that are near, chunk by chunk.
+  EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
+             std::vector<std::vector<NearEdges>> near);
 
   // In the order of the semi-edges. See target_search.h.
   [[nodiscard]] std::vector<TakenEdge> taken(const std::vector<FaceId>& spring_targets);
 
  private:
-  // Two shells and those of their edges that may touch.
-  struct Near {
-    std::uint32_t first;
-    std::uint32_t second;
-    EdgePairs edges;
-  };
   // A semi-edge (face * 3 + side) and a target edge.
   struct Touching : Candidate<EdgeId> {
     std::uint32_t semi_edge;
@@ -47,7 +46,7 @@ class EdgeSearch {
   const Surface<3>& surface_;  // of the caller, who keeps them
   const ContactOptions& options_;
   const ShellTable<3>& table_;
-  std::vector<std::vector<Near>> near_;  // of each chunk
+  std::vector<std::vector<NearEdges>> near_;
 };
 
 }  // namespace scree::contact

@@ -28,6 +28,11 @@ inline Lanes absolute(const Lanes& a) {
   return most(a, -a);
 }
 
+inline float least_lane(const Lanes& a) {
+  const float first = a[0] < a[1] ? a[0] : a[1], last = a[2] < a[3] ? a[2] : a[3];
+  return first < last ? first : last;
+}
+
 // Bit i for lane i.
 inline unsigned bits(const LaneMask& mask) {
 #ifdef __SSE__
@@ -56,15 +61,6 @@ inline std::array<Lanes, 4> transposed(const Lanes& a, const Lanes& b, const Lan
   const Lanes low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
   return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5), __builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7),
           __builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5), __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7)};
-}
-
-// Lane i is lane places[i] of a.
-inline Lanes shuffled(const Lanes& a, const LaneMask& places) {
-#ifdef __clang__
-  return Lanes{a[places[0]], a[places[1]], a[places[2]], a[places[3]]};
-#else
-  return __builtin_shuffle(a, places);
-#endif
 }
 
 }  // namespace scree::contact

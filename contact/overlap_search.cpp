@@ -16,15 +16,16 @@ namespace {
 
 using FacePairs = std::vector<std::pair<FaceId, FaceId>>;
 
-// Which faces of a shell come within `reach` of each plane of another: [plane], one bit for each face.
+// Which faces of each shell come within `reach` of each plane of the other, one bit for each face: [plane] of the first, faces
+// of the second, then [4 + plane] of the second.
 template <int dim>
-std::array<unsigned, dim + 1> faces_within(const Heights<dim>& heights, float reach) {
+SCREE_INLINE std::array<unsigned, wide_count> faces_within(const ShellPair<dim>& pair, float reach) {
   std::array<unsigned, dim + 1> above, below;  // of each vertex, one bit for each plane
   for (int v = 0; v <= dim; ++v) {
-    above[v] = bits(heights[v] > reach);
-    below[v] = bits(heights[v] < -reach);
+    above[v] = bits(pair.heights[v] > reach);
+    below[v] = bits(pair.heights[v] < -reach);
   }
-  std::array<unsigned, dim + 1> within{};
+  std::array<unsigned, wide_count> within{};
   for (int face = 0; face <= dim; ++face) {
     unsigned all_above = ~0u, all_below = ~0u;
     for (const int corner : mesh::opposite_corners<dim>[face]) {
@@ -32,24 +33,24 @@ std::array<unsigned, dim + 1> faces_within(const Heights<dim>& heights, float re
       all_below &= below[corner];
     }
     const unsigned planes = ~(all_above | all_below);
-    for (int plane = 0; plane <= dim; ++plane) within[plane] |= (planes >> plane & 1u) << face;
+    for (int plane = 0; plane < wide_count; ++plane) within[plane] |= (planes >> plane & 1u) << face;
   }
   return within;
 }
 
 // The pairs of faces of two shells that may lie on each other.
 template <int dim>
-void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
+SCREE_INLINE void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
   const Shell<dim>&a = pair.first, &b = pair.second;
   constexpr auto cosine = static_cast<float>(least_opposed);
   // Heights above an inclined plane are at most 1/cos of the gap between the faces.
-  const float reach = std::min(a.reach, b.reach) / cosine + pair.way.rounding;
-  const auto second = faces_within<dim>(pair.above_first, reach), first = faces_within<dim>(pair.above_second, reach);
+  const float reach = std::min(a.reach, b.reach) / cosine + pair.rounding;
+  const auto within = faces_within<dim>(pair, reach);
   for (int i = 0; i <= dim; ++i) {
     if ((a.faces >> i & 1u) == 0) continue;
-    for (unsigned left = second[i] & b.faces; left != 0; left &= left - 1) {
+    for (unsigned left = within[i] & b.faces; left != 0; left &= left - 1) {
       const int j = std::countr_zero(left);
-      if ((first[j] >> i & 1u) == 0) continue;
+      if ((within[lane_count + j] >> i & 1u) == 0) continue;
       float opposed = 0;
       for (int axis = 0; axis < dim; ++axis) opposed -= a.normals[axis][i] * b.normals[axis][j];
       constexpr float rounding = 1e-6F;
@@ -90,7 +91,7 @@ OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wan
   const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
   const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
   std::vector<FacePairs> found(chunk_count(table.shells.size()));
-  visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
+  visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) SCREE_INLINED {
     if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, found[chunk]);
   });
   return ordered(std::move(found), surface.faces.size());

@@ -5,6 +5,7 @@
 // element's centre, so that rounding is that of the element's size and not of its distance from the origin.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -57,6 +58,12 @@ struct Way {
   float rounding = 0;           // no height or distance is off by more [m]
 };
 
+// What touches is nearer than this: a semi-edge may touch in place of its edge.
+template <int dim>
+float slack(const Shell<dim>& a, const Shell<dim>& b) {
+  return std::max(a.reach + a.shift, b.reach + b.shift);
+}
+
 // The vertices of the second shell as seen from the first.
 template <int dim>
 LanePoints<dim> vertices_from(const Shell<dim>& second, const Way<dim>& way) {
@@ -85,14 +92,6 @@ Heights<dim> heights_above(const Shell<dim>& planes, const LanePoints<dim>& poin
     for (int i = 1; i < dim; ++i) heights[v] += planes.normals[i] * points[i][v];
   }
   return heights;
-}
-
-// Does one of the planes have all of the points more than `distance` below them?
-template <std::size_t count>
-bool all_beyond_one(const std::array<Lanes, count>& heights, float distance) {
-  Lanes lowest = heights[0];
-  for (std::size_t v = 1; v < count; ++v) lowest = least(lowest, heights[v]);
-  return bits(lowest > distance) != 0;
 }
 
 // How the search looks at a face: how far it reaches, in characteristic lengths, and how far its semi-springs are moved.

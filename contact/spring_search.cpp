@@ -17,37 +17,6 @@ namespace scree::contact {
 
 namespace {
 
-// How far each vertex of a shell, a lane each, is beyond any plane of another shell: no less than this, and the semi-springs
-// beside it, in whichever face, no less than that.
-struct Beyond {
-  Lanes vertices{};
-  Lanes springs{};
-};
-
-template <int dim>
-Beyond beyond_planes(const Heights<dim>& above_other, float indentation) {
-  Lanes high = above_other[0], sum = high;
-  for (int v = 1; v <= dim; ++v) {
-    high = most(high, above_other[v]);
-    sum += above_other[v];
-  }
-  // The face of a semi-spring has all vertices but one.
-  const Lanes centres = indentation / dim * (sum - high);
-  const auto by_plane = transposed(above_other[0], above_other[1], above_other[2], above_other[dim == 2 ? 0 : 3]);
-  Beyond beyond;
-  for (int t = 0; t <= dim; ++t) {
-    beyond.vertices = most(beyond.vertices, by_plane[t]);
-    beyond.springs = most(beyond.springs, (1 - indentation) * by_plane[t] + centres[t]);
-  }
-  return beyond;
-}
-
-template <int dim>
-float least_lane(const Lanes& lanes) {
-  float value = std::min(lanes[0], std::min(lanes[1], lanes[2]));
-  return dim == 2 ? value : std::min(value, lanes[3]);
-}
-
 // The semi-springs of one shell after the other. That of face f at vertex v has the number 4 f + v, whatever the dimension.
 template <int dim>
 class ShellSprings {
@@ -240,36 +209,19 @@ class ShellSprings {
 }  // namespace
 
 template <int dim>
-SpringSearch<dim>::SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table)
-    : surface_(surface), options_(options), table_(table), near_(chunk_count(table.shells.size())) {}
-
-template <int dim>
-void SpringSearch<dim>::look_at(std::size_t chunk, const ShellPair<dim>& pair) {
-  add(chunk, pair.first_place, pair.second_place, pair.above_second, pair.way.rounding);
-  add(chunk, pair.second_place, pair.first_place, pair.above_first, pair.way.rounding);
-}
-
-template <int dim>
-void SpringSearch<dim>::add(std::size_t chunk, std::uint32_t own, std::uint32_t other, const Heights<dim>& above_other,
-                            float rounding) {
-  const auto indentation = static_cast<float>(options_.indentation);
-  const Shell<dim>& owner = table_.shells[own];
-  const Beyond beyond = beyond_planes<dim>(above_other, indentation);
-  const float reach = owner.reach + rounding;
-  if (bits((beyond.vertices <= reach) | (beyond.springs <= reach)) == 0) return;
-  // A semi-spring is no further from its vertex than the indentation times a diameter.
-  const unsigned vertices = bits(beyond.vertices <= reach + 2 * indentation * owner.radius) & ((2u << dim) - 1);
-  near_[chunk].push_back(
-      {own, {other & 0x7fffffffu, std::popcount(vertices) >= dim ? 1u : 0u, least_lane<dim>(beyond.springs) - rounding}});
+SpringSearch<dim>::SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
+                                std::vector<std::vector<NearSprings>> near)
+    : surface_(surface), options_(options), table_(table) {
+  link(std::move(near));
 }
 
 // Sorts the others by shell.
 template <int dim>
-void SpringSearch<dim>::link() {
+void SpringSearch<dim>::link(std::vector<std::vector<NearSprings>>&& near) {
   const auto for_all = [&](const auto& enter) {
 #pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < near_.size(); ++i) {
-      for (const auto& [own, other] : near_[i]) enter(own, other);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      for (const auto& [own, other] : near[i]) enter(own, other);
     }
   };
   // Each start is counted two places on and moves one on while it is filled in.
@@ -279,16 +231,14 @@ void SpringSearch<dim>::link() {
     if (alone) return starts_[shell]++;  // an atomic sum takes several times as long
     return std::atomic_ref(starts_[shell]).fetch_add(1, std::memory_order_relaxed);
   };
-  for_all([&](std::uint32_t own, Other) { next(own + 2); });
+  for_all([&](std::uint32_t own, NearShell) { next(own + 2); });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   others_.resize(starts_.back());
-  for_all([&](std::uint32_t own, Other other) { others_[next(own + 1)] = other; });
-  near_ = {};
+  for_all([&](std::uint32_t own, NearShell other) { others_[next(own + 1)] = other; });
 }
 
 template <int dim>
 std::vector<std::vector<SpringTouch<dim>>> SpringSearch<dim>::touches() {
-  link();
   std::vector<std::vector<SpringTouch<dim>>> touches(chunk_count(table_.shells.size()));
   for_chunks(table_.shells.size(), [&](Chunk chunk) {
     ShellSprings<dim> springs(surface_, options_);

@@ -1,7 +1,10 @@
 #include "contact/target_search.h"
 
+#include <utility>
+
 #include "contact/edge_search.h"
-#include "contact/near_shells.h"
+#include "contact/near_edges.h"
+#include "contact/near_springs.h"
 #include "contact/spring_search.h"
 
 namespace scree::contact {
@@ -23,18 +26,25 @@ void take(std::vector<std::vector<SpringTouch<dim>>>&& touches, std::size_t face
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
   const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
-  SpringSearch<dim> springs(surface, options, table);
+  const std::size_t chunks = chunk_count(table.shells.size());
+  std::vector<std::vector<NearSprings>> near_springs(chunks);
+  const auto indentation = static_cast<float>(options.indentation);
   Targets<dim> targets;
   if constexpr (dim == 2) {
-    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) { springs.look_at(chunk, pair); });
+    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair)
+                               SCREE_INLINED { add_near_springs(pair, indentation, near_springs[chunk]); });
+    SpringSearch<dim> springs(surface, options, table, std::move(near_springs));
     take(springs.touches(), surface.faces.size(), targets);
   } else {
-    EdgeSearch edges(surface, options, table);
-    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) {
-      springs.look_at(chunk, pair);
-      edges.look_at(chunk, pair);
+    std::vector<std::vector<NearEdges>> near(chunks);
+    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) SCREE_INLINED {
+      add_near_springs(pair, indentation, near_springs[chunk]);
+      const EdgePairs edges = near_edges(pair);
+      if (edges != 0) near[chunk].push_back({pair.first_place, pair.second_place, edges});
     });
+    SpringSearch<dim> springs(surface, options, table, std::move(near_springs));
     take(springs.touches(), surface.faces.size(), targets);
+    EdgeSearch edges(surface, options, table, std::move(near));
     targets.of_edges = edges.taken(targets.of_springs);
   }
   return targets;

@@ -30,24 +30,22 @@ constexpr std::array<std::uint32_t, 64> vertices_of_pairs = [] {
 }();
 
 // As many pairs of an edge of the first with one of the second as there are lanes.
-template <class Numbers>
 struct SomePairs {
-  std::array<std::uint8_t, count_of<Numbers>> numbers;  // of their bits in EdgePairs
-  MaskOf<Numbers> vertices;                             // words as above
+  std::array<std::uint8_t, wide_count> numbers;  // of their bits in EdgePairs
+  WideMask vertices;                             // words as above
 };
 
 // Where the lines of some pairs of edges come closest.
-template <class Numbers>
 struct Crossing {
-  Numbers square;                // of the common normal, the cross product of the edges
-  Numbers along_first;           // fraction of the way along the edge of the first, times that square
-  Numbers along_second;          // the same on the edge of the second
-  Points<Numbers> across_first;  // from the edge of the first sideways, in the plane of both
-  Points<Numbers> across_second;
-  Points<Numbers> start_first;  // of the edges
-  Points<Numbers> start_second;
-  Numbers off_first, off_second;  // of along_first and along_second, by rounding
-  unsigned near = 0;              // bit i: the pair i may touch, as far as this tells
+  WideLanes square;         // of the common normal, the cross product of the edges
+  WideLanes along_first;    // fraction of the way along the edge of the first, times that square
+  WideLanes along_second;   // the same on the edge of the second
+  WidePoints across_first;  // from the edge of the first sideways, in the plane of both
+  WidePoints across_second;
+  WidePoints start_first;  // of the edges
+  WidePoints start_second;
+  WideLanes off_first, off_second;  // of along_first and along_second, by rounding
+  unsigned near = 0;                // bit i: the pair i may touch, as far as this tells
 };
 
 // Of some pairs, one bit each, as in TouchingEdges.
@@ -58,7 +56,6 @@ struct TouchingSome {
 
 // The semi-edges beside the edges of two shells, some pairs of edges at a time. Lengths are in radii of the first, so that
 // their products keep within the range of single precision.
-template <class Numbers>
 class EdgeBounds {
  public:
   // The third corner of the face beside an edge is no further from its start than two radii.
@@ -72,35 +69,35 @@ class EdgeBounds {
         second_(scaled(vertices_from(second, way), unit)) {}
 
   // Takes some pairs from a set; what follows the last of them is of no matter.
-  SCREE_INLINE void take(EdgePairs& set, SomePairs<Numbers>& pairs) const {
-    std::array<int, count_of<Numbers>> words;
-    for (int i = 0; i < count_of<Numbers>; ++i) {
+  SCREE_INLINE void take(EdgePairs& set, SomePairs& pairs) const {
+    std::array<int, wide_count> words;
+    for (int i = 0; i < wide_count; ++i) {
       pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(set) & 63);
       words[i] = static_cast<int>(vertices_of_pairs[pairs.numbers[i]]);
       set &= set - 1;
     }
-    pairs.vertices = together(words);
+    pairs.vertices = WideMask{words[0], words[1], words[2], words[3], words[4], words[5], words[6], words[7]};
   }
 
   // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other
   // edge between the ends of both, seen along the normal: its start is moved by a share of the way along its edge, which moves
   // it by as much along the edge and not across it, and by the same share of the way to the third corner of its face.
-  SCREE_INLINE void may_touch(const SomePairs<Numbers>& pairs, TouchingSome& touching) const {
-    Crossing<Numbers> lines;
+  SCREE_INLINE void may_touch(const SomePairs& pairs, TouchingSome& touching) const {
+    Crossing lines;
     cross_lines(pairs, lines);
     if (lines.near == 0) return;
-    const Numbers moved_along = moved_ * lines.square, kept = kept_ * lines.square;
+    const WideLanes moved_along = moved_ * lines.square, kept = kept_ * lines.square;
     for (std::size_t k = 0; k < 2; ++k) {
       // The face beside one of the two other vertices has the other one as its third corner.
       const int third = k == 0 ? right : left;
-      const Points<Numbers> a = minus(of_first(pairs, third), lines.start_first);
-      const Points<Numbers> b = minus(of_second_shell(pairs, third), lines.start_second);
-      const Numbers own_first = lines.along_first - moved_along - moved_ * dot(a, lines.across_second);
-      const Numbers target_second = lines.along_second + moved_ * dot(a, lines.across_first);
+      const WidePoints a = minus(of_first(pairs, third), lines.start_first);
+      const WidePoints b = minus(of_second_shell(pairs, third), lines.start_second);
+      const WideLanes own_first = lines.along_first - moved_along - moved_ * dot(a, lines.across_second);
+      const WideLanes target_second = lines.along_second + moved_ * dot(a, lines.across_first);
       touching.of_first[k] =
           lines.near & bits(within(own_first, kept, lines.off_first) & within(target_second, lines.square, lines.off_second));
-      const Numbers own_second = lines.along_second - moved_along - moved_ * dot(b, lines.across_first);
-      const Numbers target_first = lines.along_first + moved_ * dot(b, lines.across_second);
+      const WideLanes own_second = lines.along_second - moved_along - moved_ * dot(b, lines.across_first);
+      const WideLanes target_first = lines.along_first + moved_ * dot(b, lines.across_second);
       touching.of_second[k] =
           lines.near & bits(within(own_second, kept, lines.off_second) & within(target_first, lines.square, lines.off_first));
     }
@@ -108,31 +105,31 @@ class EdgeBounds {
 
  private:
   // A vertex of the edge of the first of each pair, and of the second.
-  SCREE_INLINE Points<Numbers> of_first(const SomePairs<Numbers>& pairs, int corner) const {
-    return picked<Numbers>(first_, pairs.vertices >> 4 * corner);
+  SCREE_INLINE WidePoints of_first(const SomePairs& pairs, int corner) const {
+    return picked(first_, pairs.vertices >> 4 * corner);
   }
-  SCREE_INLINE Points<Numbers> of_second_shell(const SomePairs<Numbers>& pairs, int corner) const {
-    return picked<Numbers>(second_, pairs.vertices >> 4 * (of_second + corner));
+  SCREE_INLINE WidePoints of_second_shell(const SomePairs& pairs, int corner) const {
+    return picked(second_, pairs.vertices >> 4 * (of_second + corner));
   }
 
-  SCREE_INLINE void cross_lines(const SomePairs<Numbers>& pairs, Crossing<Numbers>& lines) const {
+  SCREE_INLINE void cross_lines(const SomePairs& pairs, Crossing& lines) const {
     lines.start_first = of_first(pairs, start);
     lines.start_second = of_second_shell(pairs, start);
-    const Points<Numbers> a = minus(of_first(pairs, end), lines.start_first);
-    const Points<Numbers> b = minus(of_second_shell(pairs, end), lines.start_second);
-    const Points<Numbers> between = minus(lines.start_second, lines.start_first);
-    const Points<Numbers> normal = cross(a, b);
+    const WidePoints a = minus(of_first(pairs, end), lines.start_first);
+    const WidePoints b = minus(of_second_shell(pairs, end), lines.start_second);
+    const WidePoints between = minus(lines.start_second, lines.start_first);
+    const WidePoints normal = cross(a, b);
     lines.square = dot(normal, normal);
     lines.across_first = cross(normal, a);
     lines.across_second = cross(b, normal);
     lines.along_first = dot(between, lines.across_second);
     lines.along_second = -dot(between, lines.across_first);
-    const Numbers a_square = dot(a, a), b_square = dot(b, b), volume = dot(between, normal);
-    const Numbers a_length = most_length(a), b_length = most_length(b), off = off_ * a_length * b_length;
+    const WideLanes a_square = dot(a, a), b_square = dot(b, b), volume = dot(between, normal);
+    const WideLanes a_length = most_length(a), b_length = most_length(b), off = off_ * a_length * b_length;
     lines.off_first = off * b_length;
     lines.off_second = off * a_length;
     // Beside the place of the edges that of a semi-edge: its shift from the start times a vector across.
-    const Numbers aside = aside_ * most_length(normal);
+    const WideLanes aside = aside_ * most_length(normal);
     constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
     // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
     const auto near_lines = volume * volume <= 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
@@ -150,18 +147,16 @@ class EdgeBounds {
 };
 
 // Adds to a set those of some pairs whose bits are set.
-template <class Numbers>
-SCREE_INLINE void add(unsigned found, const SomePairs<Numbers>& pairs, EdgePairs& set) {
+SCREE_INLINE void add(unsigned found, const SomePairs& pairs, EdgePairs& set) {
   for (; found != 0; found &= found - 1) set |= EdgePairs{1} << pairs.numbers[std::countr_zero(found)];
 }
 
-template <class Numbers>
 SCREE_INLINE void find_touching(const Shell<3>& first, const Shell<3>& second, float indentation, EdgePairs pairs,
                                 TouchingEdges& touching) {
-  const EdgeBounds<Numbers> bounds(first, second, Way<3>(first, second), 1 / first.radius, indentation);
+  const EdgeBounds bounds(first, second, Way<3>(first, second), 1 / first.radius, indentation);
   while (pairs != 0) {
-    const unsigned asked = (1u << std::min(std::popcount(pairs), count_of<Numbers>)) - 1;
-    SomePairs<Numbers> some;
+    const unsigned asked = (1u << std::min(std::popcount(pairs), wide_count)) - 1;
+    SomePairs some;
     bounds.take(pairs, some);
     TouchingSome found;
     bounds.may_touch(some, found);
@@ -172,25 +167,12 @@ SCREE_INLINE void find_touching(const Shell<3>& first, const Shell<3>& second, f
   }
 }
 
-#ifdef SCREE_AVX2
-SCREE_AVX2 void find_touching_by_eights(const Shell<3>& first, const Shell<3>& second, float indentation, EdgePairs pairs,
-                                        TouchingEdges& touching) {
-  find_touching<WideLanes>(first, second, indentation, pairs, touching);
-}
-#endif
-
 }  // namespace
 
 TouchingEdges touching_edges(const Shell<3>& first, const Shell<3>& second, double indentation, EdgePairs pairs) {
   TouchingEdges touching;
   const auto moved = static_cast<float>(indentation);
-#ifdef SCREE_AVX2
-  if (__builtin_cpu_supports("avx2") != 0) {
-    find_touching_by_eights(first, second, moved, pairs, touching);
-    return touching;
-  }
-#endif
-  find_touching<Lanes>(first, second, moved, pairs, touching);
+  widely([&]() SCREE_INLINED { find_touching(first, second, moved, pairs, touching); });
   return touching;
 }
 
