@@ -1,7 +1,6 @@
-// Closest points of segments and straight lines.
+// Closest points of straight lines.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,13 +11,6 @@ namespace scree::contact {
 // Two edges closer to parallel than this have no crossing to speak of: its place along them would be the tolerance
 // divided by this sine. What touches along parallel edges is found by semi-springs.
 inline constexpr double least_crossing_sine = 0.0175;  // of 1 degree
-
-// Where on the segment from `start` to `end` the closest point to `point` is, as a fraction of the way in [0, 1].
-template <int dim>
-double closest_on_segment(const Point<dim>& start, const Point<dim>& end, const Point<dim>& point) {
-  const Point<dim> way = end - start;
-  return std::clamp(way.dot(point - start) / way.squaredNorm(), 0.0, 1.0);
-}
 
 // The closest approach of the lines through a0, a1 and b0, b1.
 struct Crossing {

@@ -12,9 +12,6 @@ namespace scree::contact {
 
 namespace {
 
-// Below this fraction of the characteristic length a difference of two points is rounding and has no direction.
-constexpr double no_direction = 1e-9;
-
 // How far, as a sine, a face may rise above its edge and the edge still count as standing out: packings are flat to that.
 constexpr double flat_sine = 0.0175;  // 1 degree
 
@@ -46,45 +43,46 @@ bool comes_near(const Surface<3>& surface, FaceId face, const std::array<Point<3
   return low <= distance && high >= -distance;
 }
 
+template <int dim>
+PointQuery<dim, double> query_of(const Surface<dim>& surface, const Point<dim>& point, FaceId owner, int corner,
+                                 FaceId target) {
+  const Corners<dim> own = corners_of(surface, owner), other = corners_of(surface, target);
+  PointQuery<dim, double> query{coordinates<dim>(point),
+                                coordinates<dim>(own[corner]),
+                                coordinates<dim>(surface.normals[owner]),
+                                surface.lengths[owner],
+                                {},
+                                coordinates<dim>(surface.normals[target])};
+  for (int i = 0; i < dim; ++i) query.corners[i] = coordinates<dim>(other[i]);
+  return query;
+}
+
 }  // namespace
 
 template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
                                           FaceId target) {
-  const double length = surface.lengths[owner];
-  const double tolerance = options.tolerance * length;
-  const Corners<dim> own = corners_of(surface, owner);
-  const Corners<dim> other = corners_of(surface, target);
-  const Point<dim> point = weighted_point<dim>(own, semi_spring_weights<dim>(corner, options.indentation));
+  const Point<dim> point =
+      weighted_point<dim>(corners_of(surface, owner), semi_spring_weights<dim>(corner, options.indentation));
+  const auto answer = measure(query_of(surface, point, owner, corner, target), options.tolerance);
+  return touch_of(surface, answer, owner, point, target, false);
+}
 
-  if (surface.normals[target].dot(surface.normals[owner]) >= 0) return std::nullopt;
-  // The plane's distance is a lower bound and dismisses most.
-  const Point<dim>& target_normal = surface.normals[target];
-  const double height = target_normal.dot(point - other[0]);
-  const double vertex_height = target_normal.dot(own[corner] - other[0]);
-  if (std::abs(height) > tolerance && std::abs(vertex_height) > tolerance) return std::nullopt;
-
-  PointTouch<dim> touch;
-  touch.on_target = closest_weights<dim>(other, point);
-  const Point<dim> offset = point - weighted_point<dim>(other, touch.on_target);
-  const double distance = offset.norm();
-  Point<dim> direction = target_normal;  // of the gap, away from the target
-  if (distance > no_direction * length) {
-    const double side = outwards_at<dim>(surface, target, touch.on_target).dot(offset) < 0 ? -1.0 : 1.0;
-    touch.gap = side * distance;
-    direction = offset / touch.gap;
-  } else {
-    touch.gap = height;
+template <int dim>
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAnswer<dim, double>& answer, FaceId owner,
+                                        const Point<dim>& point, FaceId target, bool inside) {
+  if (!answer.near) return std::nullopt;
+  PointTouch<dim> touch{answer.gap, answer.facing, answer.on_target};
+  if (answer.on_rim) {
+    const Point<dim> offset = point - weighted_point<dim>(corners_of(surface, target), answer.on_target);
+    const bool behind = outwards_at<dim>(surface, target, answer.on_target).dot(offset) < 0;
+    touch.gap = behind ? -offset.norm() : offset.norm();
+    const Point<dim> direction = offset / touch.gap;
+    if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
+    touch.facing = direction.dot(surface.normals[target]);
   }
-  if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
-  if (touch.gap < 0 && distance > no_direction * length && !inside_block<dim>(surface, target, point)) return std::nullopt;
-  touch.facing = direction.dot(target_normal);
-
-  if (distance > tolerance) {
-    const Point<dim> nearest = weighted_point<dim>(other, closest_weights<dim>(other, own[corner]));
-    if ((own[corner] - nearest).norm() > tolerance) return std::nullopt;
-  }
+  if (touch.gap < 0 && answer.apart && !inside && !inside_block<dim>(surface, target, point)) return std::nullopt;
   return touch;
 }
 
@@ -121,7 +119,12 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   return EdgeTouch{gap, crossing->along_a, crossing->along_b};
 }
 
-template std::optional<PointTouch<2>> touch_face<2>(const Surface<2>&, const ContactOptions&, FaceId, int, FaceId);
-template std::optional<PointTouch<3>> touch_face<3>(const Surface<3>&, const ContactOptions&, FaceId, int, FaceId);
+#define SCREE_INSTANTIATE(dim)                                                                                              \
+  template std::optional<PointTouch<dim>> touch_face<dim>(const Surface<dim>&, const ContactOptions&, FaceId, int, FaceId); \
+  template std::optional<PointTouch<dim>> touch_of<dim>(const Surface<dim>&, const PointAnswer<dim, double>&, FaceId,       \
+                                                        const Point<dim>&, FaceId, bool);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
 
 }  // namespace scree::contact

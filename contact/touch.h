@@ -4,14 +4,10 @@
 #include <optional>
 
 #include "contact/find_contacts.h"
+#include "contact/point_touch.h"
 #include "contact/surface.h"
 
 namespace scree::contact {
-
-// A face feels only what it looks at: the direction from which it is touched may lean at most 80 degrees from its normal.
-// It must be more than 0 so that the joints which end on a free surface do not heat it from the side, by rounding or by a
-// slight tilt; at 80 degrees a block that stands on a corner still touches with all the faces around it.
-inline constexpr double least_facing = 0.17364817766693033;  // cos(80 degrees)
 
 template <int dim>
 struct PointTouch {
@@ -25,6 +21,12 @@ struct PointTouch {
 template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
                                           FaceId target);
+
+// What is measured of a semi-spring at `point` becomes of its touch: at the target's rim the direction comes from the faces
+// around, and what is behind the target must be in its block. `inside`: that is known to be so.
+template <int dim>
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAnswer<dim, double>& answer, FaceId owner,
+                                        const Point<dim>& point, FaceId target, bool inside);
 
 struct EdgeTouch {
   double gap = 0;        // of the semi-edge, negative inside the target [m]

@@ -1,0 +1,64 @@
+// Points and directions whose coordinates are one number or four at once: the same operations, in the same order, so the same
+// bits.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "engine/base/geometry.h"
+#include "engine/base/quad.h"
+
+namespace scree::contact {
+
+template <int dim, class Number>
+using Coordinates = std::array<Number, dim>;
+
+// What a comparison of numbers gives: a bool, or all bits of a lane or none.
+template <class Number>
+using MaskOf = decltype(Number{} < Number{});
+
+template <int dim>
+SCREE_INLINE Coordinates<dim, double> coordinates(const Point<dim>& point) {
+  Coordinates<dim, double> result;
+  for (int i = 0; i < dim; ++i) result[i] = point[i];
+  return result;
+}
+
+SCREE_INLINE double root(double square) {
+  return std::sqrt(square);
+}
+SCREE_INLINE Quad root(const Quad& square) {
+#ifdef __SSE2__
+  // By twos: a function that is compiled for narrow instructions, too, cannot ask for a root of four.
+  const auto low = __builtin_shufflevector(square, square, 0, 1), high = __builtin_shufflevector(square, square, 2, 3);
+  return __builtin_shufflevector(__builtin_ia32_sqrtpd(low), __builtin_ia32_sqrtpd(high), 0, 1, 2, 3);
+#else
+  return Quad{std::sqrt(square[0]), std::sqrt(square[1]), std::sqrt(square[2]), std::sqrt(square[3])};
+#endif
+}
+
+template <class Number>
+SCREE_INLINE Number absolute(const Number& a) {
+  return a < 0 ? -a : a;
+}
+
+template <int dim, class Number>
+SCREE_INLINE Coordinates<dim, Number> minus(const Coordinates<dim, Number>& a, const Coordinates<dim, Number>& b) {
+  Coordinates<dim, Number> result;
+  for (int i = 0; i < dim; ++i) result[i] = a[i] - b[i];
+  return result;
+}
+
+template <int dim, class Number>
+SCREE_INLINE Number dot(const Coordinates<dim, Number>& a, const Coordinates<dim, Number>& b) {
+  Number sum = a[0] * b[0];
+  for (int i = 1; i < dim; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+template <class Number>
+SCREE_INLINE Coordinates<3, Number> cross(const Coordinates<3, Number>& a, const Coordinates<3, Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace scree::contact

@@ -1,0 +1,64 @@
+// Semi-springs and target faces that are measured together, four at a time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "contact/point_touch.h"
+
+namespace scree::contact {
+
+template <int dim>
+class PointQueries {
+ public:
+  static constexpr std::size_t most = 64;
+
+  void clear() { count_ = 0; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+  // No more than `most`.
+  void add(const PointQuery<dim, double>& query) {
+    auto* number = asked_.data();
+    const auto put = [&](double value) { (*number++)[count_] = value; };
+    for_each_number(query, put);
+    ++count_;
+  }
+
+  // Measures them all, see point_touch.h.
+  void measure(double tolerance);
+
+  [[nodiscard]] PointAnswer<dim, double> answer(std::size_t i) const {
+    PointAnswer<dim, double> answer{};
+    for (int corner = 0; corner < dim; ++corner) answer.on_target[corner] = on_target_[corner][i];
+    answer.gap = gap_[i];
+    answer.facing = facing_[i];
+    answer.near = (states_[i / numbers_in_quad] >> i % numbers_in_quad & 1u) != 0;
+    answer.on_rim = (states_[i / numbers_in_quad] >> (4 + i % numbers_in_quad) & 1u) != 0;
+    answer.apart = (states_[i / numbers_in_quad] >> (8 + i % numbers_in_quad) & 1u) != 0;
+    return answer;
+  }
+
+ private:
+  template <class Query, class Visit>
+  static SCREE_INLINE void for_each_number(Query& query, const Visit& visit) {
+    for (int i = 0; i < dim; ++i) visit(query.point[i]);
+    for (int i = 0; i < dim; ++i) visit(query.vertex[i]);
+    for (int i = 0; i < dim; ++i) visit(query.owner_normal[i]);
+    visit(query.length);
+    for (auto& corner : query.corners) {
+      for (int i = 0; i < dim; ++i) visit(corner[i]);
+    }
+    for (int i = 0; i < dim; ++i) visit(query.target_normal[i]);
+  }
+
+  using Numbers = std::array<double, most>;  // one of each query
+  static constexpr std::size_t numbers = dim * dim + 4 * dim + 1;
+
+  std::size_t count_ = 0;
+  alignas(Quad) std::array<Numbers, numbers> asked_;
+  alignas(Quad) std::array<Numbers, dim> on_target_;
+  alignas(Quad) Numbers gap_, facing_;
+  std::array<unsigned, most / numbers_in_quad> states_;  // of every four: near, on the rim, apart, four bits each
+};
+
+}  // namespace scree::contact
