@@ -6,23 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/choice.h"
 #include "contact/edge_bounds.h"
 #include "contact/tetrahedron.h"
 
 namespace scree::contact {
 
 namespace {
-
-// The block of the target of each semi-spring.
-std::vector<BlockId> blocks_of(const Surface<3>& surface, const std::vector<FaceId>& spring_targets) {
-  std::vector<BlockId> blocks(spring_targets.size());
-  for_chunks(blocks.size(), [&](Chunk chunk) {
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      if (spring_targets[i].valid()) blocks[i] = surface.faces[spring_targets[i]].block;
-    }
-  });
-  return blocks;
-}
 
 // Which edges of a shell have a face with a semi-spring whose target is on a block, one bit each.
 unsigned edges_on(const Shell<3>& shell, const std::vector<BlockId>& spring_blocks, BlockId block) {
@@ -37,13 +27,18 @@ unsigned edges_on(const Shell<3>& shell, const std::vector<BlockId>& spring_bloc
   return edges_of_faces[faces];
 }
 
-}  // namespace
+// A semi-edge (face * 3 + side) and a target edge.
+struct Touching : Candidate<EdgeId> {
+  std::uint32_t semi_edge;
+  EdgeTouch touch;
+};
 
 // Asks the semi-edges of two shells about the edges of each other.
-class EdgeSearch::Asking {
+class Asking {
  public:
-  Asking(const EdgeSearch& search, const std::vector<BlockId>& spring_blocks, std::vector<Touching>& found)
-      : surface_(search.surface_), options_(search.options_), spring_blocks_(spring_blocks), found_(found) {}
+  Asking(const Surface<3>& surface, const ContactOptions& options, const std::vector<BlockId>& spring_blocks,
+         std::vector<Touching>& found)
+      : surface_(surface), options_(options), spring_blocks_(spring_blocks), found_(found) {}
 
   void ask(const Shell<3>& first, const Shell<3>& second, EdgePairs edges) {
     // Where semi-springs join the blocks of the two, edges of their faces do not.
@@ -132,25 +127,23 @@ class EdgeSearch::Asking {
   std::vector<Possible> possible_;
 };
 
-EdgeSearch::EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-                       std::vector<std::vector<NearEdges>> near)
-    : surface_(surface), options_(options), table_(table), near_(std::move(near)) {}
+}  // namespace
 
-std::vector<TakenEdge> EdgeSearch::taken(const std::vector<FaceId>& spring_targets) {
-  const std::vector<BlockId> spring_blocks = blocks_of(surface_, spring_targets);
-  std::vector<std::vector<Touching>> parts(near_.size());
+std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
+                                         std::vector<std::vector<NearEdges>> near, const std::vector<BlockId>& spring_blocks) {
+  std::vector<std::vector<Touching>> parts(near.size());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    Asking asking(*this, spring_blocks, parts[i]);
-    const auto& near = near_[i];
-    for (std::size_t n = 0; n < near.size(); ++n) {
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    Asking asking(surface, options, spring_blocks, parts[i]);
+    const auto& pairs = near[i];
+    for (std::size_t n = 0; n < pairs.size(); ++n) {
       constexpr std::size_t ahead = 4;
-      __builtin_prefetch(&table_.shells[near[std::min(n + ahead, near.size() - 1)].second]);
-      asking.ask(table_.shells[near[n].first], table_.shells[near[n].second], near[n].edges);
+      __builtin_prefetch(&table.shells[pairs[std::min(n + ahead, pairs.size() - 1)].second]);
+      asking.ask(table.shells[pairs[n].first], table.shells[pairs[n].second], pairs[n].edges);
     }
     asking.touch_possible();
   }
-  near_ = {};
+  near = {};
   std::vector<Touching> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Touching& a, const Touching& b) { return a.semi_edge < b.semi_edge; });
@@ -160,7 +153,7 @@ std::vector<TakenEdge> EdgeSearch::taken(const std::vector<FaceId>& spring_targe
     const std::uint32_t semi_edge = all[i].semi_edge;
     candidates.clear();
     for (; i < all.size() && all[i].semi_edge == semi_edge; ++i) candidates.push_back(all[i]);
-    const Touching* best = best_of(candidates, equal_distance * surface_.lengths[FaceId{semi_edge / 3}]);
+    const Touching* best = best_of(candidates, equal_distance * surface.lengths[FaceId{semi_edge / 3}]);
     taken.push_back({semi_edge, best->target, best->touch});
   }
   return taken;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/choice.h"
 #include "contact/edge_pairs.h"
 #include "contact/find_contacts.h"
 #include "contact/near_shells.h"
@@ -26,27 +25,9 @@ struct NearEdges {
   EdgePairs edges;
 };
 
-class EdgeSearch {
- public:
-  // `near`: all pairs of shells that are near, chunk by chunk.
-  EdgeSearch(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-             std::vector<std::vector<NearEdges>> near);
-
-  // In the order of the semi-edges. See target_search.h.
-  [[nodiscard]] std::vector<TakenEdge> taken(const std::vector<FaceId>& spring_targets);
-
- private:
-  // A semi-edge (face * 3 + side) and a target edge.
-  struct Touching : Candidate<EdgeId> {
-    std::uint32_t semi_edge;
-    EdgeTouch touch;
-  };
-  class Asking;
-
-  const Surface<3>& surface_;  // of the caller, who keeps them
-  const ContactOptions& options_;
-  const ShellTable<3>& table_;
-  std::vector<std::vector<NearEdges>> near_;
-};
+// In the order of the semi-edges. `near`: all pairs of shells of the table that are near, chunk by chunk; `spring_blocks`: the
+// blocks of the targets of semi-springs. See target_search.h.
+std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
+                                         std::vector<std::vector<NearEdges>> near, const std::vector<BlockId>& spring_blocks);
 
 }  // namespace scree::contact

@@ -31,12 +31,12 @@ Contact<dim> owned_by(const Surface<dim>& surface, FaceId owner, FaceId target, 
 }
 
 template <int dim>
-Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& options, const SpringTouch<dim>& touch) {
-  const FaceId owner{touch.spring / dim};
-  const auto corner = static_cast<int>(touch.spring % dim);
-  Contact<dim> contact = owned_by<dim>(surface, owner, touch.target, semi_spring_weights<dim>(corner, options.indentation));
+Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair,
+                           const SpringTouch<dim>& touch) {
+  const auto& [owner, corner, target] = pair;
+  Contact<dim> contact = owned_by<dim>(surface, owner, target, semi_spring_weights<dim>(corner, options.indentation));
   contact.kind = Kind::point_face;
-  contact.on_target = {surface.faces[touch.target].nodes, touch.on_target};
+  contact.on_target = {surface.faces[target].nodes, touch.on_target};
   contact.area = semi_spring_area(surface, owner);
   contact.gap = touch.gap;
   return contact;
@@ -89,18 +89,15 @@ class SemiSprings {
   [[nodiscard]] std::size_t count() const { return starts_.back(); }
 
   void put_into(Contacts<dim>& contacts) const {
-    std::vector<const SpringTouch<dim>*> touches(targets_.of_springs.size(), nullptr);
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < targets_.touches.size(); ++i) {
-      for (const SpringTouch<dim>& touch : targets_.touches[i]) touches[touch.spring] = &touch;
-    }
     for_chunks(surface_.faces.size(), [&](Chunk chunk) {
       Contact<dim>* next = contacts.data() + starts_[chunk.begin];
       auto edge = first_edge_from(chunk.begin);
       for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-        for (std::size_t spring = f * dim; spring < (f + 1) * dim; ++spring) {
-          const SpringTouch<dim>* touch = touches[spring];
-          if (touch != nullptr && counts(FaceId{f}, touch->target)) *next++ = point_contact(surface_, options_, *touch);
+        for (int corner = 0; corner < dim; ++corner) {
+          const FaceId target = target_of(FaceId{f}, corner);
+          if (!target.valid() || !counts(FaceId{f}, target)) continue;
+          const auto& touch = targets_.of_springs.touches[f * dim + static_cast<std::size_t>(corner)];
+          *next++ = point_contact(surface_, options_, {FaceId{f}, corner, target}, touch);
         }
         if constexpr (dim == 3) {
           for_each_edge(FaceId{f}, edge, [&](const TakenEdge& taken) { *next++ = edge_contact(surface_, options_, taken); });
@@ -110,19 +107,21 @@ class SemiSprings {
   }
 
  private:
-  [[nodiscard]] BodyId body_of(FaceId face) const {
-    return surface_.mesh.blocks[surface_.faces[face].block].body;
-  }
+  [[nodiscard]] BodyId body_of(FaceId face) const { return surface_.mesh.blocks[surface_.faces[face].block].body; }
 
   [[nodiscard]] bool counts(FaceId owner, FaceId target) const {
     return options_.pairs.empty() || options_.model_of(body_of(owner), body_of(target)) == Model::semi_spring;
+  }
+
+  [[nodiscard]] FaceId target_of(FaceId face, int corner) const {
+    return targets_.of_springs.faces[face.index() * dim + static_cast<std::size_t>(corner)];
   }
 
   // How many of a face's semi-springs count.
   [[nodiscard]] std::size_t springs_of(FaceId face) const {
     std::size_t count = 0;
     for (int corner = 0; corner < dim; ++corner) {
-      const FaceId target = targets_.of_springs[face.index() * dim + corner];
+      const FaceId target = target_of(face, corner);
       count += target.valid() && counts(face, target) ? 1 : 0;
     }
     return count;

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "contact/choice.h"
+#include "contact/point_queries.h"
+#include "contact/spring_list.h"
 #include "contact/touch.h"
 #include "engine/base/chunks.h"
 #include "engine/base/threads.h"
@@ -17,253 +20,244 @@ namespace scree::contact {
 
 namespace {
 
-// The semi-springs of one shell after the other. That of face f at vertex v has the number 4 f + v, whatever the dimension.
-template <int dim>
-class ShellSprings {
+// Of each shell those that its semi-springs may touch, in no order of note.
+class NearShells {
  public:
-  ShellSprings(const Surface<dim>& surface, const ContactOptions& options)
-      : surface_(surface),
-        options_(options),
-        kept_(static_cast<float>(1 - options.indentation)),
-        moved_(static_cast<float>(options.indentation / dim)) {}
-
-  void begin(const Shell<dim>& owner) {
-    owner_ = &owner;
-    for (auto& touched : touched_) touched.clear();
-    for (Lanes& limit : limits_) limit = all_lanes(std::numeric_limits<float>::infinity());
-    asked_ = 0;
-    for (int f = 0; f <= dim; ++f) {
-      if ((owner.faces >> f & 1u) != 0) asked_ |= (all_vertices & ~(1u << f)) << lane_count * f;
-    }
-  }
-
-  // Either the vertex or the semi-spring must be within reach of the target face, and so of all planes of its shell.
-  void look_at(const Shell<dim>& other) {
-    const Way<dim> way(*owner_, other);
-    View view{other, way.rounding, heights_above<dim>(other, vertices_back(*owner_, way)), {}, {}};
-    const auto& heights = view.heights;
-    view.sum = heights[0];
-    for (int v = 1; v <= dim; ++v) view.sum += heights[v];
-    // The same by planes, with a lane for every vertex: how far each vertex and each semi-spring is beyond any of them.
-    const auto by_plane = transposed(heights[0], heights[1], heights[2], heights[dim == 2 ? 0 : 3]);
-    Lanes vertex_beyond{};
-    for (const Lanes& above : by_plane) vertex_beyond = most(vertex_beyond, above);
-    std::array<Lanes, dim + 1> spring_beyond{};  // of each face
-    for (int t = 0; t <= dim; ++t) {
-      const Lanes kept = kept_ * by_plane[t];
-      const Lanes centres = moved_ * (view.sum[t] - by_plane[t]);
-      for (int f = 0; f <= dim; ++f) spring_beyond[f] = most(spring_beyond[f], kept + centres[f]);
-    }
-    unsigned near = 0;
-    for (int f = 0; f <= dim; ++f) {
-      const LaneMask may_touch = least(vertex_beyond, spring_beyond[f]) <= owner_->reach + way.rounding;
-      const LaneMask may_win = spring_beyond[f] - way.rounding <= limits_[f];
-      near |= bits(may_touch & may_win) << lane_count * f;
-    }
-    near &= asked_;
-    if (near == 0) return;
-    fetch(other.first);
-    for (int t = 0; t <= dim; ++t) view.faces[t] = other.face(t);
-    constexpr std::size_t most = spring_count * (dim + 1);
-    if (possible_.size() < count_ + most) possible_.resize(2 * count_ + most);
-    for (; near != 0; near &= near - 1) {
-      const int spring = std::countr_zero(near), v = spring % lane_count;
-      look_at_spring(view, spring, vertex_beyond[v], spring_beyond[spring / lane_count][v]);
-    }
-  }
-
-  // What is further from the owner is no semi-spring's target, as far as is known now.
-  [[nodiscard]] float limit() const {
-    float largest = 0;
-    for (unsigned left = asked_; left != 0; left &= left - 1) largest = std::max(largest, limit_of(std::countr_zero(left)));
-    return largest;
-  }
-
-  // Touches what the semi-springs may take as their targets. No semi-spring is nearer to a face than its bound: once one is
-  // touched, those that cannot beat it need no look.
-  void touch_possible() {
-    while (count_ > 0) {
-      const auto nearest = nearest_of_each();
-      for (unsigned left = asked_; left != 0; left &= left - 1) {
-        const std::size_t i = nearest[std::countr_zero(left)];
-        if (i < count_) fetch_corners(possible_[i].target);
+  NearShells(std::size_t shells, std::vector<std::vector<NearSprings>> near) {
+    const auto for_all = [&](const auto& enter) {
+#pragma omp parallel for schedule(dynamic)
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        for (const auto& [own, other] : near[i]) enter(own, other);
       }
-      for (unsigned left = asked_; left != 0; left &= left - 1) {
-        const int spring = std::countr_zero(left);
-        if (nearest[spring] < count_) touch(spring, possible_[nearest[spring]].target);
-      }
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < count_; ++i) {
-        const Possible possible = possible_[i];
-        possible_[kept] = possible;
-        kept += possible.bound <= limit_of(possible.spring) && i != nearest[possible.spring] ? 1 : 0;
-      }
-      count_ = kept;
-    }
+    };
+    // Each start is counted two places on and moves one on while it is filled in.
+    starts_.assign(shells + 2, 0);
+    const bool alone = threads_in_use() == 1;
+    const auto next = [&](std::uint32_t shell) {
+      if (alone) return starts_[shell]++;  // an atomic sum takes several times as long
+      return std::atomic_ref(starts_[shell]).fetch_add(1, std::memory_order_relaxed);
+    };
+    for_all([&](std::uint32_t own, NearShell) { next(own + 2); });
+    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+    others_.resize(starts_.back());
+    for_all([&](std::uint32_t own, NearShell other) { others_[next(own + 1)] = other; });
   }
 
-  // Adds what the semi-spring of face f at vertex v, with this number in the surface, takes as its target.
-  void take_target(int f, int v, std::size_t spring, std::vector<SpringTouch<dim>>& touches) {
-    const Touched* best = best_of(touched_[lane_count * f + v], equal_distance * surface_.lengths[owner_->face(f)]);
-    if (best == nullptr) return;
-    touches.push_back({static_cast<std::uint32_t>(spring), best->target, best->touch.gap, best->touch.on_target});
+  // Calls visit(place) for those that are close, or for the others, and whose bound is not above the limit.
+  template <class Visit>
+  SCREE_INLINE void for_each(const auto& shells, std::size_t shell, bool close, float limit, const Visit& visit) const {
+    for (std::size_t n = starts_[shell]; n < starts_[shell + 1]; ++n) {
+      constexpr std::size_t ahead = 3;
+      __builtin_prefetch(&shells[others_[std::min<std::size_t>(n + ahead, starts_[shell + 1] - 1)].place]);
+      if ((others_[n].close != 0) == close && others_[n].bound <= limit) visit(others_[n].place);
+    }
   }
 
  private:
-  static constexpr unsigned all_vertices = (2u << dim) - 1;
-  static constexpr std::size_t spring_count = (dim + 1) * lane_count;
+  std::vector<std::uint32_t> starts_;  // of each shell, and the end
+  std::vector<NearShell> others_;
+};
 
-  struct Possible {
-    float bound;  // the semi-spring is no nearer [m]
-    std::int32_t spring;
-    FaceId target;
-  };
+// Of the semi-springs of a shell by their numbers (spring_list.h): where the vertex is among the corners of the face.
+template <int dim>
+constexpr std::array<std::int8_t, springs_of_shell> corners_of_springs = [] {
+  std::array<std::int8_t, springs_of_shell> corners{};
+  for (int f = 0; f <= dim; ++f) {
+    for (int corner = 0; corner < dim; ++corner) {
+      corners[lane_count * f + mesh::opposite_corners<dim>[f][corner]] = static_cast<std::int8_t>(corner);
+    }
+  }
+  return corners;
+}();
+
+// The semi-springs of some shells after those of others.
+template <int dim>
+class SpringSearch {
+ public:
+  SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table, const NearShells& near,
+               SpringTargets<dim>& targets)
+      : surface_(surface), options_(options), table_(table), near_(near), targets_(targets), list_(options.indentation) {}
+
+  // No more shells than the list holds.
+  void find(std::size_t begin, std::size_t end) {
+    list_.clear();
+    for (std::size_t place = begin; place < end; ++place) list_.add(table_.shells[place]);
+    touched_.clear();
+    last_touched_.fill(none);
+    for (const bool close : {true, false}) {
+      list_possible(begin, close);
+      fetch_corners();
+      touch_possible();
+    }
+    take_targets();
+  }
+
+ private:
+  using List = SpringList<dim>;
+  static constexpr std::uint32_t none = ~0u;
+
   struct Touched : Candidate<FaceId> {
     PointTouch<dim> touch;
+    std::uint32_t before;  // the last one of the same semi-spring
   };
 
-  // Another shell as seen from the owner's.
-  struct View {
-    const Shell<dim>& other;
-    float rounding;
-    Heights<dim> heights;  // of the owner's vertices above the other's planes
-    Lanes sum;             // of them all
-    std::array<FaceId, dim + 1> faces;
-  };
-
-  [[nodiscard]] float limit_of(int spring) const { return limits_[spring / lane_count][spring % lane_count]; }
-
-  // Faces that are near are listed without a branch for each, which no one could foretell: a face that is not is written over.
-  void look_at_spring(const View& view, int spring, float vertex_beyond, float spring_beyond) {
-    const auto& [other, rounding, heights, sum, faces] = view;
-    const int f = spring / lane_count, v = spring % lane_count;
-    Lanes cosine = owner_->normals[0][f] * other.normals[0];
-    for (int i = 1; i < dim; ++i) cosine += owner_->normals[i][f] * other.normals[i];
-    const Lanes at = kept_ * heights[v] + moved_ * (sum - heights[f]);
-    const Lanes vertex_away = most(absolute(heights[v]), all_lanes(vertex_beyond));
-    const Lanes spring_away = most(absolute(at), all_lanes(spring_beyond));
-    constexpr float cosine_rounding = 1e-6F;
-    const LaneMask near = (least(vertex_away, spring_away) <= owner_->reach + rounding) & (cosine < cosine_rounding);
-    const unsigned found = bits(near) & other.faces;
-    const Lanes bounds = spring_away - rounding;
-    Possible* next = possible_.data() + count_;
-    for (int t = 0; t <= dim; ++t) {
-      *next = {bounds[t], spring, faces[t]};
-      next += found >> t & 1u;
-    }
-    count_ = static_cast<std::size_t>(next - possible_.data());
+  void list_possible(std::size_t begin, bool close) {
+    widely([&]() SCREE_INLINED {
+      for (std::size_t i = 0; i < list_.shells(); ++i) {
+        near_.for_each(table_.shells, begin + i, close, list_.limit_of_shell(i), [&](std::size_t place) SCREE_INLINED {
+          list_.look_at(i, table_.shells[place], possible_, [&](FaceId face) SCREE_INLINED { fetch(face); });
+        });
+      }
+    });
   }
 
-  // What touch_face will ask of a target lies here and there in memory. It is asked for all targets of a shell at once, before
-  // the first is touched, so that they need not be waited for one by one: first the faces, then what they refer to.
-  void fetch(FaceId face) const {
+  // What is asked of a target lies here and there in memory. It is fetched ahead: first the faces, then what they refer to.
+  SCREE_INLINE void fetch(FaceId face) const {
     __builtin_prefetch(&surface_.faces[face]);
     __builtin_prefetch(&surface_.normals[face]);
-    if constexpr (dim == 3) __builtin_prefetch(&surface_.face_edges[face]);
-  }
-  void fetch_corners(FaceId face) const {
-    __builtin_prefetch(&surface_.mesh.nodes[surface_.faces[face].nodes[0]]);
-    if constexpr (dim == 3) __builtin_prefetch(&surface_.edges[surface_.face_edges[face][0]]);
   }
 
-  // Of each semi-spring the place of its nearest possible target, or the number of all.
-  [[nodiscard]] std::array<std::size_t, spring_count> nearest_of_each() const {
-    std::array<std::size_t, spring_count> nearest;
-    std::array<float, spring_count> bounds;
-    nearest.fill(count_);
-    bounds.fill(std::numeric_limits<float>::infinity());
-    for (std::size_t i = 0; i < count_; ++i) {
-      const auto& [bound, spring, target] = possible_[i];
-      const bool nearer = bound < bounds[spring];
-      nearest[spring] = nearer ? i : nearest[spring];
-      bounds[spring] = nearer ? bound : bounds[spring];
+  void fetch_corners() const {
+    for (const PossibleTouch& possible : possible_) {
+      __builtin_prefetch(&surface_.mesh.nodes[surface_.faces[possible.target].nodes[0]]);
     }
-    return nearest;
   }
 
-  void touch(int spring, FaceId target) {
-    const int f = spring / lane_count, v = spring % lane_count;
-    const FaceId own = owner_->face(f);
-    const auto& corners = mesh::opposite_corners<dim>[f];
-    const auto corner = static_cast<int>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-    const auto touch = touch_face(surface_, options_, own, corner, target);
-    if (!touch) return;
-    const double distance = std::abs(touch->gap);
-    touched_[spring].push_back({{target, distance, -touch->facing}, *touch});
-    constexpr double rounding = 1 + 1e-6;
-    const double limit = rounding * (distance + 2 * equal_distance * surface_.lengths[own]);
-    limits_[f][v] = std::min(limits_[f][v], static_cast<float>(limit));
+  // Touches what the semi-springs may take as their targets, of each the nearest first. No semi-spring is nearer to a face than
+  // its bound: once one is touched, those that cannot beat it need no look.
+  void touch_possible() {
+    while (!possible_.empty()) {
+      find_nearest();
+      for (std::size_t i = 0; i < possible_.size(); ++i) {
+        if (!is_nearest(i)) continue;
+        ask(i);
+        if (queries_.count() == queries_.most) touch_asked();
+      }
+      touch_asked();
+      drop_beaten();
+    }
   }
+
+  // Of each semi-spring its nearest possible target: the bits of its bound, which rise with it as it is not negative, above its
+  // place, so that one comparison tells.
+  void find_nearest() {
+    nearest_.fill(~std::uint64_t{0});
+    for (std::size_t i = 0; i < possible_.size(); ++i) {
+      std::uint64_t& nearest = nearest_[possible_[i].spring];
+      nearest = std::min(nearest, std::uint64_t{std::bit_cast<std::uint32_t>(possible_[i].bound)} << 32 | i);
+    }
+  }
+  [[nodiscard]] bool is_nearest(std::size_t i) const { return static_cast<std::uint32_t>(nearest_[possible_[i].spring]) == i; }
+
+  void ask(std::size_t i) {
+    const PossibleTouch& possible = possible_[i];
+    const Shell<dim>& owner = list_.shell_of(possible.spring);
+    const int number = possible.spring % springs_of_shell;
+    const PointAndFace pair{owner.face(number / lane_count), corners_of_springs<dim>[number], possible.target};
+    asked_[queries_.count()] = {i, pair};
+    queries_.add(query_of(surface_, options_, pair));
+  }
+
+  void touch_asked() {
+    queries_.measure(options_.tolerance);
+    for (std::size_t k = 0; k < queries_.count(); ++k) {
+      const auto& [i, pair] = asked_[k];
+      const PossibleTouch& possible = possible_[i];
+      const auto touch = touch_of(surface_, options_, queries_.answer(k), pair, possible.inside);
+      if (touch) keep(possible, pair.owner, *touch);
+    }
+    queries_.clear();
+  }
+
+  void keep(const PossibleTouch& possible, FaceId owner, const PointTouch<dim>& touch) {
+    const double distance = std::abs(touch.gap);
+    std::uint32_t& last = last_touched_[possible.spring];
+    touched_.push_back({{possible.target, distance, -touch.facing}, touch, last});
+    last = static_cast<std::uint32_t>(touched_.size() - 1);
+    constexpr double rounding = 1 + 1e-6;
+    list_.lower_limit(possible.spring, rounding * (distance + 2 * equal_distance * surface_.lengths[owner]));
+  }
+
+  // And those that have been touched.
+  void drop_beaten() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < possible_.size(); ++i) {
+      const PossibleTouch possible = possible_[i];
+      const bool asked = is_nearest(i);
+      possible_[kept] = possible;
+      kept += static_cast<unsigned>(possible.bound <= list_.limit_of(possible.spring)) & static_cast<unsigned>(!asked);
+    }
+    possible_.resize(kept);
+  }
+
+  void take_targets() {
+    for (std::size_t i = 0; i < list_.shells(); ++i) {
+      for (unsigned left = list_.springs_of(i); left != 0; left &= left - 1) {
+        const auto number = static_cast<std::size_t>(std::countr_zero(left));
+        const std::uint32_t last = last_touched_[i * springs_of_shell + number];
+        if (last == none) continue;
+        const FaceId face = list_.shell_of(i * springs_of_shell).face(static_cast<int>(number) / lane_count);
+        const auto corner = static_cast<std::size_t>(corners_of_springs<dim>[number]);
+        take(face.index() * dim + corner, best_touched(last, surface_.lengths[face]));
+      }
+    }
+  }
+
+  const Touched& best_touched(std::uint32_t last, double length) {
+    if (touched_[last].before == none) return touched_[last];
+    candidates_.clear();
+    for (; last != none; last = touched_[last].before) candidates_.push_back(touched_[last]);
+    return *best_of(candidates_, equal_distance * length);
+  }
+
+  void take(std::size_t spring, const Touched& best) {
+    targets_.faces[spring] = best.target;
+    targets_.blocks[spring] = surface_.faces[best.target].block;
+    targets_.touches[spring] = {best.touch.gap, best.touch.on_target};
+  }
+
+  struct Asked {
+    std::size_t possible;
+    PointAndFace pair;
+  };
 
   const Surface<dim>& surface_;
   const ContactOptions& options_;
-  float kept_, moved_;  // shares of the vertex and of each corner of its face in a semi-spring
-  const Shell<dim>* owner_ = nullptr;
-  unsigned asked_ = 0;              // its semi-springs, one bit each
-  std::vector<Possible> possible_;  // the first count_
-  std::size_t count_ = 0;
-  std::array<std::vector<Touched>, spring_count> touched_;  // of each semi-spring
-  std::array<Lanes, dim + 1> limits_;  // what is further from a semi-spring is not its target, of each face and vertex [m]
+  const ShellTable<dim>& table_;
+  const NearShells& near_;
+  SpringTargets<dim>& targets_;
+  List list_;
+  std::vector<PossibleTouch> possible_;
+  std::array<std::uint64_t, List::most_springs> nearest_;
+  PointQueries<dim> queries_;
+  std::array<Asked, PointQueries<dim>::most> asked_;  // of these
+  std::vector<Touched> touched_;
+  std::array<std::uint32_t, List::most_springs> last_touched_;  // of each semi-spring
+  std::vector<Touched> candidates_;
 };
 
 }  // namespace
 
 template <int dim>
-SpringSearch<dim>::SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                std::vector<std::vector<NearSprings>> near)
-    : surface_(surface), options_(options), table_(table) {
-  link(std::move(near));
-}
-
-// Sorts the others by shell.
-template <int dim>
-void SpringSearch<dim>::link(std::vector<std::vector<NearSprings>>&& near) {
-  const auto for_all = [&](const auto& enter) {
-#pragma omp parallel for schedule(dynamic)
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      for (const auto& [own, other] : near[i]) enter(own, other);
-    }
-  };
-  // Each start is counted two places on and moves one on while it is filled in.
-  starts_.assign(table_.shells.size() + 2, 0);
-  const bool alone = threads_in_use() == 1;
-  const auto next = [&](std::uint32_t shell) {
-    if (alone) return starts_[shell]++;  // an atomic sum takes several times as long
-    return std::atomic_ref(starts_[shell]).fetch_add(1, std::memory_order_relaxed);
-  };
-  for_all([&](std::uint32_t own, NearShell) { next(own + 2); });
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  others_.resize(starts_.back());
-  for_all([&](std::uint32_t own, NearShell other) { others_[next(own + 1)] = other; });
-}
-
-template <int dim>
-std::vector<std::vector<SpringTouch<dim>>> SpringSearch<dim>::touches() {
-  std::vector<std::vector<SpringTouch<dim>>> touches(chunk_count(table_.shells.size()));
-  for_chunks(table_.shells.size(), [&](Chunk chunk) {
-    ShellSprings<dim> springs(surface_, options_);
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const Shell<dim>& owner = table_.shells[i];
-      springs.begin(owner);
-      for (const unsigned close : {1u, 0u}) {
-        const float limit = springs.limit();
-        for (std::size_t n = starts_[i]; n < starts_[i + 1]; ++n) {
-          __builtin_prefetch(&table_.shells[others_[std::min<std::size_t>(n + 3, starts_[i + 1] - 1)].place]);
-          if (others_[n].close == close && others_[n].bound <= limit) springs.look_at(table_.shells[others_[n].place]);
-        }
-        springs.touch_possible();
-      }
-      for (int f = 0; f <= dim; ++f) {
-        if ((owner.faces >> f & 1u) == 0) continue;
-        std::size_t spring = owner.face(f).index() * dim;
-        for (const int v : mesh::opposite_corners<dim>[f]) springs.take_target(f, v, spring++, touches[chunk.number]);
-      }
-    }
+SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
+                                       std::vector<std::vector<NearSprings>> near) {
+  const NearShells near_shells(table.shells.size(), std::move(near));
+  const std::size_t springs = surface.faces.size() * dim;
+  SpringTargets<dim> targets{std::vector<FaceId>(springs), std::vector<BlockId>(springs)};
+  targets.touches.resize(springs);
+  for_chunks(table.shells.size(), [&](Chunk chunk) {
+    SpringSearch<dim> search(surface, options, table, near_shells, targets);
+    constexpr std::size_t together = SpringList<dim>::most_shells;
+    for (std::size_t i = chunk.begin; i < chunk.end; i += together) search.find(i, std::min(i + together, chunk.end));
   });
-  return touches;
+  return targets;
 }
 
-template class SpringSearch<2>;
-template class SpringSearch<3>;
+#define SCREE_INSTANTIATE(dim)                                                                                             \
+  template SpringTargets<dim> find_spring_targets<dim>(const Surface<dim>&, const ContactOptions&, const ShellTable<dim>&, \
+                                                       std::vector<std::vector<NearSprings>>);
+SCREE_INSTANTIATE(2)
+SCREE_INSTANTIATE(3)
+#undef SCREE_INSTANTIATE
 
 }  // namespace scree::contact

@@ -9,20 +9,6 @@
 
 namespace scree::contact {
 
-namespace {
-
-template <int dim>
-void take(std::vector<std::vector<SpringTouch<dim>>>&& touches, std::size_t faces, Targets<dim>& targets) {
-  targets.of_springs.resize(faces * dim);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    for (const auto& touch : touches[i]) targets.of_springs[touch.spring] = touch.target;
-  }
-  targets.touches = std::move(touches);
-}
-
-}  // namespace
-
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
   const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
@@ -33,8 +19,7 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
   if constexpr (dim == 2) {
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair)
                                SCREE_INLINED { add_near_springs(pair, indentation, near_springs[chunk]); });
-    SpringSearch<dim> springs(surface, options, table, std::move(near_springs));
-    take(springs.touches(), surface.faces.size(), targets);
+    targets.of_springs = find_spring_targets(surface, options, table, std::move(near_springs));
   } else {
     std::vector<std::vector<NearEdges>> near(chunks);
     visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) SCREE_INLINED {
@@ -42,10 +27,8 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
       const EdgePairs edges = near_edges(pair);
       if (edges != 0) near[chunk].push_back({pair.first_place, pair.second_place, edges});
     });
-    SpringSearch<dim> springs(surface, options, table, std::move(near_springs));
-    take(springs.touches(), surface.faces.size(), targets);
-    EdgeSearch edges(surface, options, table, std::move(near));
-    targets.of_edges = edges.taken(targets.of_springs);
+    targets.of_springs = find_spring_targets(surface, options, table, std::move(near_springs));
+    targets.of_edges = find_edge_targets(surface, options, table, std::move(near), targets.of_springs.blocks);
   }
   return targets;
 }

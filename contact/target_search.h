@@ -12,9 +12,8 @@ namespace scree::contact {
 
 template <int dim>
 struct Targets {
-  std::vector<std::vector<SpringTouch<dim>>> touches;  // those of the semi-springs that have a target, in no order of note
-  std::vector<FaceId> of_springs;                      // of corner c of face f at f * dim + c; invalid if it touches nothing
-  std::vector<TakenEdge> of_edges;                     // of the semi-edges that have a target, in their order; empty in 2-D
+  SpringTargets<dim> of_springs;
+  std::vector<TakenEdge> of_edges;  // of the semi-edges that have a target, in their order; empty in 2-D
 };
 
 // Each takes the closest face (edge) of all other blocks that it touches. Equally close faces: the one that looks at it most

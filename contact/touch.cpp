@@ -44,46 +44,50 @@ bool comes_near(const Surface<3>& surface, FaceId face, const std::array<Point<3
 }
 
 template <int dim>
-PointQuery<dim, double> query_of(const Surface<dim>& surface, const Point<dim>& point, FaceId owner, int corner,
-                                 FaceId target) {
-  const Corners<dim> own = corners_of(surface, owner), other = corners_of(surface, target);
-  PointQuery<dim, double> query{coordinates<dim>(point),
-                                coordinates<dim>(own[corner]),
-                                coordinates<dim>(surface.normals[owner]),
-                                surface.lengths[owner],
-                                {},
-                                coordinates<dim>(surface.normals[target])};
-  for (int i = 0; i < dim; ++i) query.corners[i] = coordinates<dim>(other[i]);
-  return query;
+Point<dim> spring_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair) {
+  return weighted_point<dim>(corners_of(surface, pair.owner), semi_spring_weights<dim>(pair.corner, options.indentation));
 }
 
 }  // namespace
 
 template <int dim>
-std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
-                                          FaceId target) {
-  const Point<dim> point =
-      weighted_point<dim>(corners_of(surface, owner), semi_spring_weights<dim>(corner, options.indentation));
-  const auto answer = measure(query_of(surface, point, owner, corner, target), options.tolerance);
-  return touch_of(surface, answer, owner, point, target, false);
+PointQuery<dim, double> query_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair) {
+  const auto at = [&](NodeId node) { return coordinates<dim>(surface.mesh.nodes[node]); };
+  PointQuery<dim, double> query{coordinates<dim>(spring_of(surface, options, pair)),
+                                at(surface.faces[pair.owner].nodes[pair.corner]),
+                                coordinates<dim>(surface.normals[pair.owner]),
+                                surface.lengths[pair.owner],
+                                {},
+                                coordinates<dim>(surface.normals[pair.target])};
+  for (int i = 0; i < dim; ++i) query.corners[i] = at(surface.faces[pair.target].nodes[i]);
+  return query;
 }
 
 template <int dim>
-std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAnswer<dim, double>& answer, FaceId owner,
-                                        const Point<dim>& point, FaceId target, bool inside) {
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const ContactOptions& options,
+                                        const PointAnswer<dim, double>& answer, const PointAndFace& pair, bool inside) {
   if (!answer.near) return std::nullopt;
   PointTouch<dim> touch{answer.gap, answer.facing, answer.on_target};
   if (answer.on_rim) {
-    const Point<dim> offset = point - weighted_point<dim>(corners_of(surface, target), answer.on_target);
-    const bool behind = outwards_at<dim>(surface, target, answer.on_target).dot(offset) < 0;
+    const Point<dim> nearest = weighted_point<dim>(corners_of(surface, pair.target), answer.on_target);
+    const Point<dim> offset = spring_of(surface, options, pair) - nearest;
+    const bool behind = outwards_at<dim>(surface, pair.target, answer.on_target).dot(offset) < 0;
     touch.gap = behind ? -offset.norm() : offset.norm();
     const Point<dim> direction = offset / touch.gap;
-    if (direction.dot(surface.normals[owner]) > -least_facing) return std::nullopt;
-    touch.facing = direction.dot(surface.normals[target]);
+    if (direction.dot(surface.normals[pair.owner]) > -least_facing) return std::nullopt;
+    touch.facing = direction.dot(surface.normals[pair.target]);
   }
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
-  if (touch.gap < 0 && answer.apart && !inside && !inside_block<dim>(surface, target, point)) return std::nullopt;
+  const bool asked = touch.gap < 0 && answer.apart && !inside;
+  if (asked && !inside_block<dim>(surface, pair.target, spring_of(surface, options, pair))) return std::nullopt;
   return touch;
+}
+
+template <int dim>
+std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options,
+                                          const PointAndFace& pair) {
+  const auto answer = measure(query_of(surface, options, pair), options.tolerance);
+  return touch_of(surface, options, answer, pair, false);
 }
 
 std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
@@ -119,10 +123,11 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   return EdgeTouch{gap, crossing->along_a, crossing->along_b};
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                              \
-  template std::optional<PointTouch<dim>> touch_face<dim>(const Surface<dim>&, const ContactOptions&, FaceId, int, FaceId); \
-  template std::optional<PointTouch<dim>> touch_of<dim>(const Surface<dim>&, const PointAnswer<dim, double>&, FaceId,       \
-                                                        const Point<dim>&, FaceId, bool);
+#define SCREE_INSTANTIATE(dim)                                                                                       \
+  template PointQuery<dim, double> query_of<dim>(const Surface<dim>&, const ContactOptions&, const PointAndFace&);   \
+  template std::optional<PointTouch<dim>> touch_of<dim>(const Surface<dim>&, const ContactOptions&,                  \
+                                                        const PointAnswer<dim, double>&, const PointAndFace&, bool); \
+  template std::optional<PointTouch<dim>> touch_face<dim>(const Surface<dim>&, const ContactOptions&, const PointAndFace&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

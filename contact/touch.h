@@ -16,17 +16,27 @@ struct PointTouch {
   std::array<double, dim> on_target;  // weights
 };
 
+// A semi-spring, as a corner of a face, and a face.
+struct PointAndFace {
+  FaceId owner;
+  int corner;
+  FaceId target;
+};
+
 // Touching means: the semi-spring, or the vertex it stands for, is within tolerance of the target, and the owner's face looks
 // at it.
 template <int dim>
-std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, FaceId owner, int corner,
-                                          FaceId target);
+std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair);
 
-// What is measured of a semi-spring at `point` becomes of its touch: at the target's rim the direction comes from the faces
-// around, and what is behind the target must be in its block. `inside`: that is known to be so.
+// The same in two steps, between which many may be measured at once.
 template <int dim>
-std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAnswer<dim, double>& answer, FaceId owner,
-                                        const Point<dim>& point, FaceId target, bool inside);
+PointQuery<dim, double> query_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair);
+
+// What is measured of them becomes of their touch: at the target's rim the direction comes from the faces around, and what is
+// behind the target must be in its block. `inside`: that is known to be so.
+template <int dim>
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const ContactOptions& options,
+                                        const PointAnswer<dim, double>& answer, const PointAndFace& pair, bool inside);
 
 struct EdgeTouch {
   double gap = 0;        // of the semi-edge, negative inside the target [m]

@@ -29,8 +29,8 @@ template <int dim>
 Found<dim> found_on(const Surface<dim>& surface, const ContactOptions& options) {
   const Targets<dim> targets = find_targets(surface, options);
   Found<dim> found;
-  for (std::size_t i = 0; i < targets.of_springs.size(); ++i) {
-    const FaceId target = targets.of_springs[i];
+  for (std::size_t i = 0; i < targets.of_springs.faces.size(); ++i) {
+    const FaceId target = targets.of_springs.faces[i];
     if (target.valid()) found.springs[{surface.faces[FaceId{i / dim}].nodes, i % dim}] = surface.faces[target].nodes;
   }
   for (const TakenEdge& edge : targets.of_edges) {

@@ -25,7 +25,7 @@ std::vector<FaceId> ask_every_face(const Surface<3>& surface, const ContactOptio
       std::vector<Candidate<FaceId>> candidates;
       for (const FaceId other : surface.faces.ids()) {
         if (surface.faces[own].block == surface.faces[other].block) continue;
-        const auto touch = touch_face(surface, options, own, corner, other);
+        const auto touch = touch_face(surface, options, PointAndFace{own, corner, other});
         if (touch) candidates.push_back({other, std::abs(touch->gap), -touch->facing});
       }
       targets.push_back(choose(candidates, equal_distance * surface.lengths[own]));
@@ -91,7 +91,7 @@ void compare(const mesh::BlockMesh<3>& mesh, const ContactOptions& options, std:
   const Surface<3> surface = make_surface(mesh);
   const Targets<3> found = find_targets(surface, options);
   const auto springs = ask_every_face(surface, options);
-  EXPECT_EQ(found.of_springs, springs);
+  EXPECT_EQ(found.of_springs.faces, springs);
   const auto edges = ask_every_edge(surface, options, springs);
   EXPECT_EQ(targets_of(found.of_edges, edges.size()), edges);
   EXPECT_EQ(found.of_edges.size(), valid(edges));
