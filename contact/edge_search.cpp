@@ -45,7 +45,29 @@ class Asking {
     edges &= ~pairs_of_first(edges_on(first, spring_blocks_, second.block));
     edges &= ~pairs_of_second(edges_on(second, spring_blocks_, first.block));
     if (edges == 0) return;
-    const TouchingEdges touching = touching_edges(first, second, options_.indentation, edges);
+    asked_.push_back({&first, &second, edges});
+    if (asked_.size() == many) touch_asked();
+  }
+
+  void finish() { touch_asked(); }
+
+ private:
+  static constexpr std::size_t many = 32;
+
+  struct Possible {
+    FaceId own;
+    int side;
+    EdgeId target;
+  };
+
+  void touch_asked() {
+    find_touching_edges(asked_, options_.indentation, touching_);
+    for (std::size_t i = 0; i < asked_.size(); ++i) list(*asked_[i].first, *asked_[i].second, touching_[i]);
+    asked_.clear();
+    touch_possible();
+  }
+
+  void list(const Shell<3>& first, const Shell<3>& second, const TouchingEdges& touching) {
     for (std::size_t k = 0; k < 2; ++k) {
       for (EdgePairs left = touching.of_first[k]; left != 0; left &= left - 1) {
         const int pair = std::countr_zero(left);
@@ -56,8 +78,6 @@ class Asking {
         list(second, pair % 6, k, first, pair / 6);
       }
     }
-    constexpr std::size_t many = 32;
-    if (possible_.size() >= many) touch_possible();
   }
 
   // What touch_edge asks for lies here and there in memory, so it is fetched for many semi-edges at once, before the first is
@@ -78,13 +98,6 @@ class Asking {
     }
     possible_.clear();
   }
-
- private:
-  struct Possible {
-    FaceId own;
-    int side;
-    EdgeId target;
-  };
 
   // The semi-edge in the k-th face beside an edge of the owner, and an edge of another shell.
   void list(const Shell<3>& owner, int edge, std::size_t k, const Shell<3>& other, int target_edge) {
@@ -124,6 +137,8 @@ class Asking {
   const ContactOptions& options_;
   const std::vector<BlockId>& spring_blocks_;
   std::vector<Touching>& found_;
+  std::vector<ShellEdges> asked_;
+  std::vector<TouchingEdges> touching_;
   std::vector<Possible> possible_;
 };
 
@@ -141,7 +156,7 @@ std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const Contac
       __builtin_prefetch(&table.shells[pairs[std::min(n + ahead, pairs.size() - 1)].second]);
       asking.ask(table.shells[pairs[n].first], table.shells[pairs[n].second], pairs[n].edges);
     }
-    asking.touch_possible();
+    asking.finish();
   }
   near = {};
   std::vector<Touching> all;

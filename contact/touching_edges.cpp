@@ -29,10 +29,12 @@ constexpr std::array<std::uint32_t, 64> vertices_of_pairs = [] {
   return words;
 }();
 
-// As many pairs of an edge of the first with one of the second as there are lanes.
+// As many pairs of an edge of the first with one of the second as there are lanes: in the low half those of two shells, in the
+// high half those of two others.
 struct SomePairs {
   std::array<std::uint8_t, wide_count> numbers;  // of their bits in EdgePairs
   WideMask vertices;                             // words as above
+  unsigned asked = 0;                            // bit i: there is a pair i
 };
 
 // Where the lines of some pairs of edges come closest.
@@ -52,32 +54,41 @@ struct Crossing {
 struct TouchingSome {
   std::array<unsigned, 2> of_first{};
   std::array<unsigned, 2> of_second{};
+
+  [[nodiscard]] bool any() const { return (of_first[0] | of_first[1] | of_second[0] | of_second[1]) != 0; }
 };
 
-// The semi-edges beside the edges of two shells, some pairs of edges at a time. Lengths are in radii of the first, so that
-// their products keep within the range of single precision.
+// Of two shells what is asked of their edges. Lengths are in radii of the first, so that their products keep within the range
+// of single precision.
+struct Scaled {
+  Scaled() = default;
+  SCREE_INLINE Scaled(const Shell<3>& a, const Shell<3>& b, float indentation) {
+    const Way<3> way(a, b);
+    const float unit = 1 / a.radius;
+    distance = unit * slack(a, b);
+    off = 2 * unit * way.rounding;
+    aside = 2 * indentation / 3 * unit * std::max(a.radius, b.radius);
+    first = scaled(a.at, unit);
+    second = scaled(vertices_from(b, way), unit);
+  }
+
+  float distance;  // between the lines of edges that touch, at most
+  float off;       // of a length, by rounding
+  float aside;     // the third corner of a face, no further from an edge than two radii, moves its semi-edges by no more
+  LanePoints<3> first, second;  // their vertices as seen from the first
+};
+
+// The semi-edges beside the edges of two times two shells, some pairs of edges at a time.
 class EdgeBounds {
  public:
-  // The third corner of the face beside an edge is no further from its start than two radii.
-  SCREE_INLINE EdgeBounds(const Shell<3>& first, const Shell<3>& second, const Way<3>& way, float unit, float indentation)
-      : distance_(unit * slack(first, second)),
-        off_(2 * unit * way.rounding),
+  SCREE_INLINE EdgeBounds(const Scaled& low, const Scaled& high, float indentation)
+      : distance_(joined(low.distance, high.distance)),
+        off_(joined(low.off, high.off)),
+        aside_(joined(low.aside, high.aside)),
         kept_(1 - indentation),
         moved_(indentation / 3),
-        aside_(2 * moved_ * unit * std::max(first.radius, second.radius)),
-        first_(scaled(first.at, unit)),
-        second_(scaled(vertices_from(second, way), unit)) {}
-
-  // Takes some pairs from a set; what follows the last of them is of no matter.
-  SCREE_INLINE void take(EdgePairs& set, SomePairs& pairs) const {
-    std::array<int, wide_count> words;
-    for (int i = 0; i < wide_count; ++i) {
-      pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(set) & 63);
-      words[i] = static_cast<int>(vertices_of_pairs[pairs.numbers[i]]);
-      set &= set - 1;
-    }
-    pairs.vertices = WideMask{words[0], words[1], words[2], words[3], words[4], words[5], words[6], words[7]};
-  }
+        first_(joined(low.first, high.first)),
+        second_(joined(low.second, high.second)) {}
 
   // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other
   // edge between the ends of both, seen along the normal: its start is moved by a share of the way along its edge, which moves
@@ -138,42 +149,90 @@ class EdgeBounds {
                       within(lines.along_second, lines.square, lines.off_second + aside * a_length));
   }
 
-  float distance_;                // between the lines of edges that touch, at most
-  float off_;                     // of a length, by rounding
-  float kept_;                    // length of a semi-edge, over that of its edge
-  float moved_;                   // share of each corner of its face in a semi-spring
-  float aside_;                   // the third corner of a face moves its semi-edges by no more
-  LanePoints<3> first_, second_;  // their vertices as seen from the first
+  WideLanes distance_, off_, aside_;
+  float kept_;                 // length of a semi-edge, over that of its edge
+  float moved_;                // share of each corner of its face in a semi-spring
+  WidePoints first_, second_;  // vertices
 };
 
-// Adds to a set those of some pairs whose bits are set.
-SCREE_INLINE void add(unsigned found, const SomePairs& pairs, EdgePairs& set) {
-  for (; found != 0; found &= found - 1) set |= EdgePairs{1} << pairs.numbers[std::countr_zero(found)];
-}
+// Goes through many pairs of shells with two of them at hand, one in each half of the lanes.
+class Halves {
+ public:
+  SCREE_INLINE Halves(const std::vector<ShellEdges>& shells, float indentation, std::vector<TouchingEdges>& touching)
+      : shells_(shells), indentation_(indentation), touching_(touching) {}
 
-SCREE_INLINE void find_touching(const Shell<3>& first, const Shell<3>& second, float indentation, EdgePairs pairs,
-                                TouchingEdges& touching) {
-  const EdgeBounds bounds(first, second, Way<3>(first, second), 1 / first.radius, indentation);
-  while (pairs != 0) {
-    const unsigned asked = (1u << std::min(std::popcount(pairs), wide_count)) - 1;
-    SomePairs some;
-    bounds.take(pairs, some);
-    TouchingSome found;
-    bounds.may_touch(some, found);
+  // Fills halves that have nothing left. False if there is nothing in either.
+  SCREE_INLINE bool fill() {
+    for (int half = 0; half < 2; ++half) {
+      if (left_[half] != 0 || next_ == shells_.size()) continue;
+      const auto& [first, second, edges] = shells_[next_];
+      scaled_[half] = Scaled(*first, *second, indentation_);
+      left_[half] = edges;
+      at_[half] = next_++;
+    }
+    return (left_[0] | left_[1]) != 0;
+  }
+
+  [[nodiscard]] SCREE_INLINE EdgeBounds bounds() const { return {scaled_[0], scaled_[1], indentation_}; }
+
+  // Takes some pairs from both halves; lanes without one are of no matter.
+  SCREE_INLINE void take(SomePairs& pairs) {
+    std::array<std::uint32_t, wide_count> words;
+    pairs.asked = 0;
+    for (int half = 0; half < 2; ++half) {
+      constexpr std::uint32_t in_high_half = 0x44444444;  // added to each vertex
+      EdgePairs& left = left_[half];
+      for (int i = lane_count * half; i < lane_count * (half + 1); ++i) {
+        pairs.asked |= (left != 0 ? 1u : 0u) << i;
+        pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(left) & 63);
+        words[i] = vertices_of_pairs[pairs.numbers[i]] + (half == 0 ? 0 : in_high_half);
+        left &= left - 1;
+      }
+    }
+    for (int i = 0; i < wide_count; ++i) pairs.vertices[i] = static_cast<int>(words[i]);
+  }
+
+  SCREE_INLINE void keep(const TouchingSome& found, const SomePairs& pairs) {
     for (std::size_t k = 0; k < 2; ++k) {
-      add(found.of_first[k] & asked, some, touching.of_first[k]);
-      add(found.of_second[k] & asked, some, touching.of_second[k]);
+      keep(found.of_first[k] & pairs.asked, pairs,
+           [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_first[k]; });
+      keep(found.of_second[k] & pairs.asked, pairs,
+           [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_second[k]; });
     }
   }
-}
+
+ private:
+  template <class SetOf>
+  SCREE_INLINE void keep(unsigned found, const SomePairs& pairs, const SetOf& set_of) {
+    for (; found != 0; found &= found - 1) {
+      const int i = std::countr_zero(found);
+      set_of(touching_[at_[i / lane_count]]) |= EdgePairs{1} << pairs.numbers[i];
+    }
+  }
+
+  const std::vector<ShellEdges>& shells_;
+  float indentation_;
+  std::vector<TouchingEdges>& touching_;
+  std::size_t next_ = 0;
+  std::array<std::size_t, 2> at_{};
+  std::array<EdgePairs, 2> left_{};
+  std::array<Scaled, 2> scaled_{};
+};
 
 }  // namespace
 
-TouchingEdges touching_edges(const Shell<3>& first, const Shell<3>& second, double indentation, EdgePairs pairs) {
-  TouchingEdges touching;
-  const auto moved = static_cast<float>(indentation);
-  widely([&]() SCREE_INLINED { find_touching(first, second, moved, pairs, touching); });
-  return touching;
+void find_touching_edges(const std::vector<ShellEdges>& shells, double indentation, std::vector<TouchingEdges>& touching) {
+  touching.assign(shells.size(), {});
+  widely([&]() SCREE_INLINED {
+    Halves halves(shells, static_cast<float>(indentation), touching);
+    while (halves.fill()) {
+      SomePairs some;
+      halves.take(some);
+      TouchingSome found;
+      halves.bounds().may_touch(some, found);
+      if (found.any()) halves.keep(found, some);
+    }
+  });
 }
 
 }  // namespace scree::contact

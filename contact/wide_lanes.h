@@ -92,6 +92,10 @@ SCREE_INLINE void for_each_constant(const Visit& visit) {
 // Points or directions, one a lane, axis by axis.
 using WidePoints = std::array<WideLanes, 3>;
 
+SCREE_INLINE WidePoints joined(const LanePoints<3>& low, const LanePoints<3>& high) {
+  return {joined(low[0], high[0]), joined(low[1], high[1]), joined(low[2], high[2])};
+}
+
 SCREE_INLINE WideLanes dot(const WidePoints& a, const WidePoints& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -115,10 +119,9 @@ SCREE_INLINE WideMask within(const WideLanes& along, const WideLanes& end, const
   return (along >= -beyond) & (along <= end + beyond);
 }
 
-// In each lane that of four points whose number the lowest two bits say.
-SCREE_INLINE WidePoints picked(const LanePoints<3>& points, const WideMask& numbers) {
-  const auto twice = [&](const Lanes& axis) SCREE_INLINED { return shuffled(joined(axis, axis), numbers); };
-  return {twice(points[0]), twice(points[1]), twice(points[2])};
+// In each lane that of eight points whose number the lowest three bits say.
+SCREE_INLINE WidePoints picked(const WidePoints& points, const WideMask& numbers) {
+  return {shuffled(points[0], numbers), shuffled(points[1], numbers), shuffled(points[2], numbers)};
 }
 
 }  // namespace scree::contact
