@@ -151,20 +151,21 @@ class SpringSearch {
 
   void ask(std::size_t i) {
     const PossibleTouch& possible = possible_[i];
-    const Shell<dim>& owner = list_.shell_of(possible.spring);
     const int number = possible.spring % springs_of_shell;
-    const PointAndFace pair{owner.face(number / lane_count), corners_of_springs<dim>[number], possible.target};
-    asked_[queries_.count()] = {i, pair};
-    queries_.add(query_of(surface_, options_, pair));
+    Asked& asked = asked_[queries_.count()];
+    asked.possible = i;
+    asked.pair.owner = list_.shell_of(possible.spring).face(number / lane_count);
+    asked.pair.corner = corners_of_springs<dim>[number];
+    asked.pair.target = possible.target;
+    queries_.add(query_of(surface_, options_, asked.pair));
   }
 
   void touch_asked() {
     queries_.measure(options_.tolerance);
     for (std::size_t k = 0; k < queries_.count(); ++k) {
-      const auto& [i, pair] = asked_[k];
-      const PossibleTouch& possible = possible_[i];
-      const auto touch = touch_of(surface_, options_, queries_.answer(k), pair, possible.inside);
-      if (touch) keep(possible, pair.owner, *touch);
+      const PossibleTouch& possible = possible_[asked_[k].possible];
+      const auto touch = touch_of(surface_, options_, queries_.answer(k), asked_[k].pair, possible.inside);
+      if (touch) keep(possible, asked_[k].pair.owner, *touch);
     }
     queries_.clear();
   }

@@ -115,18 +115,32 @@ bool is_whole(const Surface<dim>& surface, BlockId block) {
   return surface.mesh.blocks[block].elements.size() == 1;
 }
 
-// At a node of a block of one element, whose few faces follow one another.
+// Of a block of one element, whose faces follow one another, that opposite to a node; `face` is one of the others.
+template <int dim>
+FaceId face_opposite(const Surface<dim>& surface, FaceId face, NodeId node) {
+  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
+  const auto& own = surface.faces[face].nodes;
+  std::size_t beyond = 0, opposite = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (std::find(own.begin(), own.end(), nodes[i]) == own.end()) beyond = i;
+    if (nodes[i] == node) opposite = i;
+  }
+  return FaceId{face.index() + opposite - beyond};
+}
+
+// At a node of a block of one element.
 template <int dim>
 Point<dim> node_normal(const Surface<dim>& surface, FaceId face, NodeId node) {
-  const BlockId block = surface.faces[face].block;
-  const auto of_block = [&](std::size_t f) { return f < surface.faces.size() && surface.faces[FaceId{f}].block == block; };
-  std::size_t f = face.index();
-  while (f > 0 && of_block(f - 1)) --f;
+  const FaceId opposite = face_opposite(surface, face, node);
+  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
+  const std::size_t first =
+      opposite.index() - static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
   Point<dim> sum = Point<dim>::Zero();
-  for (; of_block(f); ++f) {
-    const auto& nodes = surface.faces[FaceId{f}].nodes;
-    const auto corner = std::find(nodes.begin(), nodes.end(), node) - nodes.begin();
-    if (corner < dim) sum += weighted_normal(surface, FaceId{f}, static_cast<int>(corner));
+  for (std::size_t f = first; f <= first + dim; ++f) {
+    if (FaceId{f} == opposite) continue;
+    const auto& corners = surface.faces[FaceId{f}].nodes;
+    sum += weighted_normal(surface, FaceId{f},
+                           static_cast<int>(std::find(corners.begin(), corners.end(), node) - corners.begin()));
   }
   return sum;
 }
@@ -181,6 +195,9 @@ Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::arra
     return is_whole(surface, surface.faces[face].block) ? node_normal(surface, face, node) : surface.node_normals[node];
   }
   const auto opposite = std::find_if(weights.begin(), weights.end(), zero) - weights.begin();
+  if (is_whole(surface, surface.faces[face].block)) {
+    return surface.normals[face] + surface.normals[face_opposite(surface, face, surface.faces[face].nodes[opposite])];
+  }
   const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(opposite + 1) % 3]];
   return surface.normals[edge.faces[0]] + surface.normals[edge.faces[1]];
 }
