@@ -37,10 +37,10 @@ class FlowNetwork {
     rows().for_each_flow<columns>(temperature, use);
   }
 
-  // The same of several products, each of what the one before was made into: RowRuns::for_each_product.
-  template <int columns, class From, class RowsOf>
-  void for_each_product(int products, const From& temperature, const RowsOf& rows_of) const {
-    rows().for_each_product<columns>(products, temperature, rows_of);
+  // The same; see RowRuns::for_each_part.
+  template <int columns, class RowsOf>
+  void for_each_part(const double* temperature, const RowsOf& rows_of) const {
+    rows().for_each_part<columns>(temperature, rows_of);
   }
 
   [[nodiscard]] bool empty() const { return conductance_ == nullptr || conductance_->nonZeros() == 0; }

@@ -25,8 +25,6 @@ class RowBundles {
 
   [[nodiscard]] const Bundle& operator[](std::size_t i) const { return bundles_[i]; }
   [[nodiscard]] std::size_t count() const { return bundles_.size(); }
-  // One more than the last column of the last one.
-  [[nodiscard]] int reach() const { return columns_.back() + 1; }
 
   // The flows of the rows of bundles `begin` to `end`, as RowRuns has them, one after another.
   template <int width>

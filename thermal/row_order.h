@@ -1,6 +1,5 @@
 // An order of the rows of K in which neighbours in space are neighbours in memory, across blocks: a product then finds what it
-// reads in the cache, threads read little of what others wrote, and several products in a row can share what they read
-// (row_tiles.h).
+// reads in the cache, and threads read little of what others wrote.
 #pragma once
 
 #include <algorithm>

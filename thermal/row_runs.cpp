@@ -70,7 +70,6 @@ RowRuns::RowRuns(const Eigen::SparseMatrix<double>& matrix)
     row += run.rows;
   }
   close_part();
-  make_tiles();
 }
 
 // The one that was added last.
@@ -78,7 +77,6 @@ void RowRuns::add_bundle(int row) {
   Part& part = open_part(row, Kind::bundled);
   part.end = bundles_.count();
   part.rows += rows_in_bundle;
-  part.reach = std::max(part.reach, bundles_.reach());
   part.work += 2 * static_cast<std::int64_t>(bundles_[part.end - 1].columns);
 }
 
@@ -88,7 +86,6 @@ void RowRuns::add_run(const RowRun& run) {
   runs_.push_back(run);
   part.end = runs_.size();
   part.rows += run.rows;
-  if (run.entries > 0) part.reach = std::max(part.reach, column_[run.begin + run.entries - 1] + run.rows);
   // Rows that repeat take a quarter of the time.
   part.work += run.entries * static_cast<std::int64_t>(run.rows + 3) / 4;
 }
@@ -100,7 +97,7 @@ RowRuns::Part& RowRuns::open_part(int row, Kind kind) {
   if (full) {
     close_part();
     const std::size_t next = kind == Kind::bundled ? bundles_.count() - 1 : runs_.size();
-    parts_.push_back({row, 0, kind, next, next, 0, 0});
+    parts_.push_back({row, 0, kind, next, next, 0});
   }
   return parts_.back();
 }
@@ -112,17 +109,6 @@ void RowRuns::close_part() {
   if (last.kind == Kind::bundled || static_cast<std::size_t>(last.rows) > last.end - last.begin) return;
   last.kind = Kind::lone;
   runs_.resize(last.begin);
-}
-
-void RowRuns::make_tiles() {
-  std::vector<RowStretch> stretches;
-  int reach = 0;
-  for (const Part& part : parts_) {
-    reach = std::max(reach, part.reach);
-    stretches.push_back({part.first + part.rows, reach, part.work});
-  }
-  RowTiles tiles(stretches);
-  if (tiles.depth() > 1) tiles_ = std::move(tiles);
 }
 
 std::span<const RowRuns::Part> RowRuns::parts_of_task(int task, int threads) const {

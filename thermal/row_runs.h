@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,7 +19,6 @@
 #include "engine/base/phases.h"
 #include "engine/base/threads.h"
 #include "thermal/row_bundles.h"
-#include "thermal/row_tiles.h"
 
 namespace scree::thermal {
 
@@ -31,12 +29,14 @@ struct RowRun {
   int entries;  // of a row
 };
 
-// The processor's own prefetching ends at pages and does not keep up with rows as short as these.
+// The processor's own prefetching ends at pages and does not keep up with rows as short as these: asked for is as much as most
+// rows have, as far ahead as it takes the memory to answer. In a loop over just what a row has it would cost more than it
+// gives.
 inline void fetch_ahead(const int* column, const double* value) {
-  constexpr int ahead = 256;
-  __builtin_prefetch(value + ahead);
-  __builtin_prefetch(value + ahead + 8);
-  __builtin_prefetch(column + ahead);
+  constexpr int ahead = 768;  // entries
+  constexpr int values_in_line = 8, columns_in_line = 16;
+  for (int line = 0; line < 4; ++line) __builtin_prefetch(value + ahead + line * values_in_line);
+  for (int line = 0; line < 2; ++line) __builtin_prefetch(column + ahead + line * columns_in_line);
 }
 
 class RowRuns {
@@ -49,11 +49,9 @@ class RowRuns {
   template <int columns, class Use>
   void for_each_flow(const double* x, const Use& use) const;
 
-  // The same of several products, one after the other. rows_of(product, first, rows) is asked for what is to be called with
-  // each of these rows and its flow; it may write the row of x(product + 1), which x(product - 1) may have been before, and
-  // read that of x(product).
-  template <int columns, class From, class RowsOf>
-  void for_each_product(int products, const From& x, const RowsOf& rows_of) const;
+  // The same; rows_of(first, rows) is asked for what is to be called with each of these rows and its flow.
+  template <int columns, class RowsOf>
+  void for_each_part(const double* x, const RowsOf& rows_of) const;
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bundles() const { return bundles_.count(); }
@@ -66,7 +64,6 @@ class RowRuns {
     int first, rows;
     Kind kind;
     std::size_t begin, end;  // of its runs or bundles
-    int reach;               // one more than the last column of its rows
     std::int64_t work;       // entries that are read
   };
   static constexpr int rows_in_part = 512;
@@ -79,7 +76,6 @@ class RowRuns {
   void add_run(const RowRun& run);
   Part& open_part(int row, Kind kind);
   void close_part();
-  void make_tiles();
 
   // Each thread has a share of the rows. The first tasks are three quarters of every share, for a thread that takes the same
   // one in every product finds it in its cache; the others are small and even out who is done first.
@@ -101,7 +97,6 @@ class RowRuns {
   std::vector<RowRun> runs_;  // of the parts that repeat
   RowBundles bundles_;
   std::vector<Part> parts_;
-  std::optional<RowTiles> tiles_;  // where several products are worth taking together
 };
 
 template <>
@@ -137,31 +132,20 @@ void RowRuns::work_off(const Part& part, const double* x, const Use& use) const 
 
 template <int columns, class Use>
 void RowRuns::for_each_flow(const double* x, const Use& use) const {
-  for_each_product<columns>(
-      1, [x](int) { return x; }, [&use](int, int, int) -> const Use& { return use; });
+  for_each_part<columns>(x, [&use](int, int) -> const Use& { return use; });
 }
 
-template <int columns, class From, class RowsOf>
-void RowRuns::for_each_product(int products, const From& x, const RowsOf& rows_of) const {
-  const auto take = [&](const Part& part, int product) {
-    work_off<columns>(part, x(product), rows_of(product, part.first, part.rows));
-  };
+template <int columns, class RowsOf>
+void RowRuns::for_each_part(const double* x, const RowsOf& rows_of) const {
+  const auto take = [&](const Part& part) { work_off<columns>(part, x, rows_of(part.first, part.rows)); };
   const int threads = rows() < rows_worth_sharing ? 1 : threads_in_use();
-  for (int product = 0, together; product < products; product += together) {
-    together = tiles_ ? std::min(tiles_->depth(), products - product) : 1;
-    if (together > 1) {
-      run_phases(tiles_->tasks(together), 1, [&](int phase, int number) {
-        const RowTiles::Task task = tiles_->task(together, phase, number);
-        for (std::size_t p = task.begin; p < task.end; ++p) take(parts_[p], product + task.product);
-      });
-    } else if (threads == 1) {
-      for (const Part& part : parts_) take(part, product);
-    } else {
-      run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
-        for (const Part& part : parts_of_task(task, threads)) take(part, product);
-      });
-    }
+  if (threads == 1) {
+    for (const Part& part : parts_) take(part);
+    return;
   }
+  run_phases(std::array<int, 1>{threads * tasks_a_thread}, 1, [&](int, int task) {
+    for (const Part& part : parts_of_task(task, threads)) take(part);
+  });
 }
 
 }  // namespace scree::thermal

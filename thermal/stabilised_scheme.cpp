@@ -225,27 +225,23 @@ class StabilisedScheme : public TimeScheme {
     rates.swap(beside_);
   }
 
-  // Stages 2 to `stages`, which is odd, each in the place of the one before the last.
+  // Stages 2 to `stages`, each in the place of the one before the last.
   void advance(int stages, double length, WatchedMean& mean) {
-    std::vector<Coefficients> with;
-    for (int j = 2; j <= stages; ++j) with.push_back(coefficients(j, stages));
-    const double* loss = linear_.loss.data();
-    const double* inverse = inverse_.data();
-    Columns* const columns[] = {&newer_, &older_};  // D_j-1 of product j - 2, in turns
-    const auto from = [&](int product) { return columns[product % 2]->data(); };
-    balance_.flows().for_each_product<2>(stages - 1, from, [&](int product, int first, int rows) {
-      const Coefficients stage = with[static_cast<std::size_t>(product)];
-      const Columns& newer = *columns[product % 2];
-      mean.advance(product + 2, stage, newer, first, rows);
-      return [&, stage, scale = stage.product * length, newer_data = newer.data(), older = columns[(product + 1) % 2]->data(),
-              loss, inverse](int row, const double* flow) {
-        const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
-        const ConstPair here(newer_data + at);
-        Eigen::Map<Pair> increment(older + at);
-        increment = stage.mu * here + stage.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
-                    stage.start * pair(start_, row);
-      };
-    });
+    for (int j = 2; j <= stages; ++j) {
+      const Coefficients with = coefficients(j, stages);
+      balance_.flows().for_each_part<2>(newer_.data(), [&](int first, int rows) {
+        mean.advance(j, with, newer_, first, rows);
+        return [this, with, scale = with.product * length, newer = newer_.data(), older = older_.data(),
+                loss = linear_.loss.data(), inverse = inverse_.data()](int row, const double* flow) {
+          const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
+          const ConstPair here(newer + at);
+          Eigen::Map<Pair> increment(older + at);
+          increment = with.mu * here + with.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
+                      with.start * pair(start_, row);
+        };
+      });
+      older_.swap(newer_);
+    }
   }
 
   // The same where a stage takes more than a product with K.
