@@ -82,22 +82,16 @@ class StabilisedScheme : public TimeScheme {
     if (changing_) follow(from.temperature);
     const int stages = stages_for(length, stable_);
     start(from, length);
-    older_.setZero();
-    newer_ = first_coefficient(stages) * start_;
+    for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
+      older_.middleRows(row, rows).setZero();
+      newer_.middleRows(row, rows) = first_coefficient(stages) * start_.middleRows(row, rows);
+    });
     WatchedMean mean(watched_);
     by_rates() ? advance_by_rates(stages, length, mean) : advance(stages, length, mean);
-    Step result;
-    result.change = newer_.col(0);
     rates(newer_, length, older_);  // h L D
-    const double estimate = estimate_of(stages);
-    result.error.resize(start_.rows());
-    for (Eigen::Index row = 0; row < start_.rows(); ++row) {
-      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
-      result.local_error = std::max(result.local_error, std::abs(local));
-      result.error[row] = from.error[row] + newer_(row, 1) + local;
-    }
+    Step result = along_tangent(from, estimate_of(stages));
     result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages), changing_.has_value()}};
-    if (changing_) leave_tangent(from, length, estimate, result);
+    if (changing_) leave_tangent(from, length, estimate_of(stages), result);
     return result;
   }
 
@@ -145,6 +139,33 @@ class StabilisedScheme : public TimeScheme {
     stable_ = changing_->at(linear_);
   }
 
+  // Calls visit(first row, number of rows) on all threads for all rows.
+  template <class Visit>
+  void for_each_stretch(const Visit& visit) const {
+    for_short_chunks(static_cast<std::size_t>(start_.rows()), [&](Chunk chunk) {
+      visit(static_cast<Eigen::Index>(chunk.begin), static_cast<Eigen::Index>(chunk.end - chunk.begin));
+    });
+  }
+
+  // Change and errors of the step that has been taken.
+  Step along_tangent(const Instant& from, double estimate) const {
+    Step result;
+    result.change.resize(start_.rows());
+    result.error.resize(start_.rows());
+    std::vector<double> largest(chunk_count(static_cast<std::size_t>(start_.rows())), 0.0);
+    for_each_stretch([&](Eigen::Index first, Eigen::Index rows) {
+      double& of_stretch = largest[static_cast<std::size_t>(first) / chunk_size];
+      for (Eigen::Index row = first; row < first + rows; ++row) {
+        const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
+        of_stretch = std::max(of_stretch, std::abs(local));
+        result.change[row] = newer_(row, 0);
+        result.error[row] = from.error[row] + newer_(row, 1) + local;
+      }
+    });
+    for (const double local : largest) result.local_error = std::max(result.local_error, local);
+    return result;
+  }
+
   // What the step's change is of the enthalpy, it becomes of the temperature, and so do the errors.
   void leave_tangent(const Instant& from, double length, double estimate, Step& result) {
     const Drive& drive = drives_.at(from.time);
@@ -167,8 +188,9 @@ class StabilisedScheme : public TimeScheme {
 
   // h C^-1 F of the temperatures, and of the error, which nothing drives: the flows of both in one product.
   void start(const Instant& from, double length) {
-    newer_.col(0) = from.temperature;
-    newer_.col(1) = from.error;
+    for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
+      newer_.middleRows(row, rows) << from.temperature.segment(row, rows), from.error.segment(row, rows);
+    });
     const Eigen::VectorXd driven = balance_.driven(from.temperature, drives_.at(from.time));
     if (conducts_by_temperature()) {
       older_.col(0) = balance_.conducted(from.temperature);
@@ -231,13 +253,13 @@ class StabilisedScheme : public TimeScheme {
       const Coefficients with = coefficients(j, stages);
       balance_.flows().for_each_part<2>(newer_.data(), [&](int first, int rows) {
         mean.advance(j, with, newer_, first, rows);
-        return [this, with, scale = with.product * length, newer = newer_.data(), older = older_.data(),
+        return [with, scale = with.product * length, newer = newer_.data(), older = older_.data(), start = start_.data(),
                 loss = linear_.loss.data(), inverse = inverse_.data()](int row, const double* flow) {
           const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
           const ConstPair here(newer + at);
           Eigen::Map<Pair> increment(older + at);
           increment = with.mu * here + with.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
-                      with.start * pair(start_, row);
+                      with.start * ConstPair(start + at);
         };
       });
       older_.swap(newer_);
