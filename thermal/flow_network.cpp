@@ -1,6 +1,6 @@
 #include "thermal/flow_network.h"
 
-#include "engine/base/threads.h"
+#include "engine/base/phases.h"
 
 namespace scree::thermal {
 
@@ -24,8 +24,7 @@ Eigen::VectorXd plainly(const RowRuns& rows, const Eigen::VectorXd& temperature)
 
 Eigen::VectorXd extended(const SparseMatrix& matrix, const Eigen::VectorXd& temperature) {
   Eigen::VectorXd heat(temperature.size());
-#pragma omp parallel for schedule(static) if (heat.size() >= rows_worth_sharing)
-  for (Eigen::Index row = 0; row < heat.size(); ++row) heat[row] = row_sum<long double>(matrix, row, temperature);
+  for_each_shortly(heat.size(), [&](Eigen::Index row) { heat[row] = row_sum<long double>(matrix, row, temperature); });
   return heat;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/threads.h"
+#include "engine/base/phases.h"
 #include "thermal/exchange.h"
 
 namespace scree::thermal {
@@ -37,8 +37,7 @@ Eigen::VectorXd at_rows(const VaryingProperties& properties, CurveLists list, co
     for (Eigen::Index row = 0; row < result.size(); ++row) evaluate(row);
     return result;
   }
-#pragma omp parallel for schedule(static) if (result.size() >= rows_worth_sharing)
-  for (Eigen::Index row = 0; row < result.size(); ++row) evaluate(row);
+  for_each_shortly(result.size(), evaluate);
   return result;
 }
 

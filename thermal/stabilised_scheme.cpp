@@ -152,17 +152,12 @@ class StabilisedScheme : public TimeScheme {
     Step result;
     result.change.resize(start_.rows());
     result.error.resize(start_.rows());
-    std::vector<double> largest(chunk_count(static_cast<std::size_t>(start_.rows())), 0.0);
-    for_each_stretch([&](Eigen::Index first, Eigen::Index rows) {
-      double& of_stretch = largest[static_cast<std::size_t>(first) / chunk_size];
-      for (Eigen::Index row = first; row < first + rows; ++row) {
-        const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
-        of_stretch = std::max(of_stretch, std::abs(local));
-        result.change[row] = newer_(row, 0);
-        result.error[row] = from.error[row] + newer_(row, 1) + local;
-      }
+    result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
+      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
+      result.change[row] = newer_(row, 0);
+      result.error[row] = from.error[row] + newer_(row, 1) + local;
+      return std::abs(local);
     });
-    for (const double local : largest) result.local_error = std::max(result.local_error, local);
     return result;
   }
 
@@ -175,15 +170,14 @@ class StabilisedScheme : public TimeScheme {
     const Eigen::VectorXd end = from.temperature + result.change;
     const Eigen::VectorXd heating = balance_.heating(end, drive);
     const Eigen::VectorXd capacity = capacity_at(model_, end);
-    result.local_error = 0;
-    for (Eigen::Index row = 0; row < start_.rows(); ++row) {
+    result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
       const double along = start_(row, 0) - older_(row, 0);
       const double bent = length * inverse_[row] * heating[row] - (inverse_[row] > 0 ? along : 0);
       const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
       const double shrinks = linear_.capacity[row] / capacity[row];
-      result.local_error = std::max(result.local_error, std::abs(shrinks * local));
       result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
-    }
+      return std::abs(shrinks * local);
+    });
   }
 
   // h C^-1 F of the temperatures, and of the error, which nothing drives: the flows of both in one product.

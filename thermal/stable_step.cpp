@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/threads.h"
+#include "engine/base/phases.h"
 #include "thermal/drive.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
@@ -35,9 +35,7 @@ class Magnitudes {
 
   // Fixed nodes have no weight. Returns the largest quotient.
   double multiply(const Eigen::VectorXd& weights, Eigen::VectorXd& product) const {
-    double largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest) if (weights.size() >= rows_worth_sharing)
-    for (Eigen::Index row = 0; row < weights.size(); ++row) {
+    return largest_of_each(weights.size(), [&](Eigen::Index row) {
       double sum = state_.loss[row] * weights[row];
       add(
           conductance_, row, [&](int column) { return weights[column]; }, sum);
@@ -46,9 +44,8 @@ class Magnitudes {
             *unit_conductance_, row, [&](int column) { return state_.conductivity[column] * weights[column]; }, sum);
       }
       product[row] = inverse_[row] * sum;
-      if (weights[row] > 0) largest = std::max(largest, product[row] / weights[row]);
-    }
-    return largest;
+      return weights[row] > 0 ? product[row] / weights[row] : 0.0;
+    });
   }
 
  private:

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "engine/base/chunks.h"
 
@@ -41,6 +42,25 @@ void for_short_chunks(std::size_t count, const Body& body) {
     const auto number = static_cast<std::size_t>(task);
     body(Chunk{number, number * chunk_size, std::min(count, (number + 1) * chunk_size)});
   });
+}
+
+// The same for every index.
+template <class Index, class Body>
+void for_each_shortly(Index count, const Body& body) {
+  for_short_chunks(static_cast<std::size_t>(count), [&](Chunk chunk) {
+    for (auto i = static_cast<Index>(chunk.begin); i < static_cast<Index>(chunk.end); ++i) body(i);
+  });
+}
+
+// The largest of value(index), at least 0. Does not depend on the number of threads.
+template <class Index, class Value>
+double largest_of_each(Index count, const Value& value) {
+  std::vector<double> largest(chunk_count(static_cast<std::size_t>(count)), 0.0);
+  for_short_chunks(static_cast<std::size_t>(count), [&](Chunk chunk) {
+    double& here = largest[chunk.number];
+    for (auto i = static_cast<Index>(chunk.begin); i < static_cast<Index>(chunk.end); ++i) here = std::max(here, value(i));
+  });
+  return largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
 }  // namespace scree
