@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include "engine/base/material.h"
+#include "engine/base/wide.h"
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::thermal {
@@ -50,7 +51,7 @@ Corners<dim> opposite_areas(const Corners<dim>& points);
 // as the areas sum to zero only to rounding, and temperatures in kelvin are large: the area opposite to that corner drops out,
 // and a frame asks for this of every element.
 template <int dim>
-Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values) {
+SCREE_INLINE Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values) {
   const Eigen::Matrix<double, dim, dim> ways = points.template rightCols<dim>().colwise() - points.col(0);
   const Point<dim> rises = values.template tail<dim>().array() - values[0];
   if constexpr (dim == 2) {
@@ -63,9 +64,9 @@ Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values)
   }
 }
 
-// q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K].
-template <int dim>
-Point<dim> element_flux(const Corners<dim>& points, const Tensor<dim>& conductivity, const CornerValues<dim>& temperatures) {
+// q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K], a number or a Tensor.
+template <int dim, class Conductivity>
+Point<dim> element_flux(const Corners<dim>& points, const Conductivity& conductivity, const CornerValues<dim>& temperatures) {
   return -(conductivity * gradient<dim>(points, temperatures));
 }
 

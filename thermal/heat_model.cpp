@@ -148,6 +148,7 @@ class BlockFlux {
       : mesh_(mesh),
         value_(material_of(mesh, materials, block).conductivity->value),
         constant_(value_.constant()),
+        isotropic_(material_of(mesh, materials, block).conductivity->isotropic()),
         tensor_(constant_.value_or(1) *
                 conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block])) {}
 
@@ -157,7 +158,8 @@ class BlockFlux {
       const double at = temperature[nodes[i].value()];
       corner[i] = constant_ ? at : value_.integral(at);
     }
-    return element_flux<dim>(corner_points<dim>(mesh_, nodes), tensor_, corner);
+    const Corners<dim> points = corner_points<dim>(mesh_, nodes);
+    return isotropic_ ? element_flux<dim>(points, tensor_(0, 0), corner) : element_flux<dim>(points, tensor_, corner);
   }
 
   // Over both splits, by volume.
@@ -176,6 +178,7 @@ class BlockFlux {
   const mesh::BlockMesh<dim>& mesh_;
   const Curve& value_;
   std::optional<double> constant_;
+  bool isotropic_;
   Tensor<dim> tensor_;
 };
 
