@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "engine/base/phases.h"
@@ -24,20 +25,26 @@ double value(const Curve& curve, double temperature) {
 
 using CurveLists = std::vector<Curve> VaryingProperties::*;
 
-// f(curve of the node's material, row of the node) of each node.
+// f(curve of the node's material, row of the node) of each node. Throws what f throws for the first of them.
 template <class Value>
 Eigen::VectorXd at_rows(const VaryingProperties& properties, CurveLists list, const Value& f) {
   const std::vector<Curve>& curves = properties.*list;
   Eigen::VectorXd result(properties.mass.size());
-  const auto evaluate = [&](Eigen::Index row) {
-    const NodeId node(static_cast<std::size_t>(row));
-    result[row] = f(curves[static_cast<std::size_t>(properties.material[node])], row);
-  };
-  if (!std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return curve.can_be_shared(); })) {
-    for (Eigen::Index row = 0; row < result.size(); ++row) evaluate(row);
-    return result;
+  const auto rows = static_cast<std::size_t>(result.size());
+  std::vector<std::exception_ptr> failures(chunk_count(rows));
+  for_short_chunks(rows, [&](Chunk chunk) {
+    try {
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        result[row] = f(curves[static_cast<std::size_t>(properties.material[NodeId(i)])], row);
+      }
+    } catch (...) {
+      failures[chunk.number] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
   }
-  for_each_shortly(result.size(), evaluate);
   return result;
 }
 

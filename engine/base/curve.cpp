@@ -20,7 +20,6 @@ struct Curve::Form {
 
   [[nodiscard]] virtual double value(double temperature) const = 0;
   [[nodiscard]] virtual double integral(double temperature) const = 0;
-  [[nodiscard]] virtual bool can_be_shared() const = 0;
 };
 
 namespace {
@@ -30,12 +29,66 @@ class Tabulated : public Curve::Form {
   explicit Tabulated(LinearTable table) : table_(std::move(table)) {}
   [[nodiscard]] double value(double temperature) const override { return table_(temperature); }
   [[nodiscard]] double integral(double temperature) const override { return table_.integral(temperature); }
-  [[nodiscard]] bool can_be_shared() const override { return true; }
 
  private:
   LinearTable table_;
 };
 
+// Gauss-Legendre with five points (Abramowitz and Stegun, 25.4.30 and table 25.4), from -1 to 1.
+constexpr std::size_t gauss_count = 5;
+constexpr std::array gauss_points{-0.906179845938663993, -0.538469310105683091, 0.0, 0.538469310105683091,
+                                  0.906179845938663993};
+constexpr std::array gauss_weights{0.236926885056189088, 0.478628670499366468, 0.568888888888888889, 0.478628670499366468,
+                                   0.236926885056189088};
+
+// A formula between two temperatures: the polynomial through its values at Gauss's points, whose integral is that of Gauss's
+// rule, and so exact where the formula is of the ninth degree.
+class Piece {
+ public:
+  Piece(double from, double to, const std::array<double, gauss_count>& values)
+      : centre_(0.5 * (from + to)), half_(to - centre_) {
+    // Newton's divided differences, then powers of s = (T - centre)/half.
+    std::array<double, gauss_count> differences = values;
+    for (std::size_t order = 1; order < gauss_count; ++order) {
+      for (std::size_t i = gauss_count - 1; i >= order; --i) {
+        differences[i] = (differences[i] - differences[i - 1]) / (gauss_points[i] - gauss_points[i - order]);
+      }
+    }
+    for (std::size_t i = gauss_count; i-- > 0;) {
+      for (std::size_t power = gauss_count - 1; power > 0; --power) {
+        powers_[power] = powers_[power - 1] - gauss_points[i] * powers_[power];
+      }
+      powers_[0] = differences[i] - gauss_points[i] * powers_[0];
+    }
+    for (std::size_t i = 0; i < gauss_count; ++i) whole_ += half_ * gauss_weights[i] * values[i];
+  }
+
+  [[nodiscard]] double value(double temperature) const {
+    const double s = (temperature - centre_) / half_;
+    double sum = 0;
+    for (std::size_t power = gauss_count; power-- > 0;) sum = sum * s + powers_[power];
+    return sum;
+  }
+
+  // From its beginning to its end, or to a temperature.
+  [[nodiscard]] double whole() const { return whole_; }
+  [[nodiscard]] double integral_to(double temperature) const {
+    return antiderivative((temperature - centre_) / half_) - antiderivative(-1);
+  }
+
+ private:
+  [[nodiscard]] double antiderivative(double s) const {
+    double sum = 0;
+    for (std::size_t power = gauss_count; power-- > 0;) sum = (sum + powers_[power] / static_cast<double>(power + 1)) * s;
+    return half_ * sum;
+  }
+
+  double centre_, half_;
+  std::array<double, gauss_count> powers_{};
+  double whole_ = 0;
+};
+
+// muParser reads the formula once and is then slow: what it gives is kept piece by piece, each kelvin one piece or more.
 class Formula : public Curve::Form {
  public:
   Formula(const std::string& text, UnitConverter unit, ValueRule rule)
@@ -44,70 +97,101 @@ class Formula : public Curve::Form {
   [[nodiscard]] bool varies() const { return expression_.uses("T"); }
 
   [[nodiscard]] double value(double temperature) const override {
-    const double result = raw(temperature);
+    const Kept* kept = kept_at(temperature);
+    const double result = kept != nullptr && kept->smooth ? kept->piece.value(temperature) : raw(temperature);
     if (!rule_.holds(result)) refuse(result, temperature);
     return result;
   }
 
   [[nodiscard]] double integral(double temperature) const override {
-    std::call_once(cut_, [&] { cut(); });
-    const auto above = std::upper_bound(cuts_.begin(), cuts_.end(), std::max(temperature, 0.0));
-    const auto piece = static_cast<std::size_t>(above - cuts_.begin()) - 1;
-    const double result = sums_[piece] + gauss(cuts_[piece], temperature);
+    const Kept* kept = kept_at(temperature);
+    const double result = kept == nullptr ? integral_beyond(temperature)
+                          : kept->smooth  ? kept->before + kept->piece.integral_to(temperature)
+                                          : kept->before + through(kept->begin, temperature).whole();
     if (!std::isfinite(result)) refuse(result, temperature);
     return result;
   }
 
-  [[nodiscard]] bool can_be_shared() const override { return false; }
-
  private:
-  // Sums are kept up to here; the way from here to a higher temperature is one interval of Gauss's rule.
+  // Pieces end here; the way from here to a higher temperature is one interval of Gauss's rule.
   static constexpr int last_kelvin = 5000;
   // How often a kelvin may be halved, and into how many pieces in all: a formula that jumps needs as many as halvings.
   static constexpr int most_halvings = 40;
   static constexpr std::size_t most_pieces = 2000;
-  // Where the rule over a whole and over its halves differ by more than this share, the formula is not smooth there.
-  static constexpr double smooth = 1e-12;
+  // Where the rule over a whole and over its halves differ by more than this share, or the polynomial and the formula by more
+  // than that, the formula is not smooth there.
+  static constexpr double smooth_integral = 1e-12;
+  static constexpr double smooth_value = 1e-11;
+
+  struct Kept {
+    double begin;   // [K]
+    double before;  // integral from 0 K to there
+    bool smooth;    // or the formula itself is asked
+    Piece piece;
+  };
 
   [[nodiscard]] double raw(double temperature) const { return unit_(expression_(std::array{temperature})); }
 
-  // Gauss-Legendre with five points (Abramowitz and Stegun, 25.4.30 and table 25.4).
-  [[nodiscard]] double gauss(double from, double to) const {
-    constexpr std::array points{0.0, 0.538469310105683091, 0.906179845938663993};
-    constexpr std::array weights{0.568888888888888889, 0.478628670499366468, 0.236926885056189088};
-    const double centre = 0.5 * (from + to);
-    const double half = 0.5 * (to - from);
-    if (half == 0) return 0;
-    double sum = weights[0] * raw(centre);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-      sum += weights[i] * (raw(centre - half * points[i]) + raw(centre + half * points[i]));
-    }
-    return sum * half;
+  [[nodiscard]] Piece through(double from, double to) const {
+    std::array<double, gauss_count> values;
+    for (std::size_t i = 0; i < gauss_count; ++i) values[i] = raw(0.5 * (from + to) + 0.5 * (to - from) * gauss_points[i]);
+    return {from, to, values};
+  }
+
+  // Nothing below 0 K and beyond the last one.
+  [[nodiscard]] const Kept* kept_at(double temperature) const {
+    if (!(temperature >= 0 && temperature < last_kelvin)) return nullptr;
+    std::call_once(cut_, [&] { cut(); });
+    const auto kelvin = static_cast<std::size_t>(temperature);
+    const Kept* first = kept_.data() + first_of_kelvin_[kelvin];
+    const Kept* last = kept_.data() + first_of_kelvin_[kelvin + 1];
+    if (last - first == 1) return first;
+    return std::upper_bound(first, last, temperature, [](double at, const Kept& kept) { return at < kept.begin; }) - 1;
+  }
+
+  [[nodiscard]] double integral_beyond(double temperature) const {
+    if (temperature < 0) return through(0, temperature).whole();
+    std::call_once(cut_, [&] { cut(); });
+    return temperature == last_kelvin ? to_last_ : to_last_ + through(last_kelvin, temperature).whole();
   }
 
   void cut() const {
-    cuts_.push_back(0);
-    sums_.push_back(0);
     for (int k = 0; k < last_kelvin; ++k) {
+      first_of_kelvin_.push_back(kept_.size());
       room_ = most_pieces;
-      append(k, k + 1, gauss(k, k + 1), most_halvings);
+      append(k, k + 1, through(k, k + 1), most_halvings);
     }
+    first_of_kelvin_.push_back(kept_.size());
   }
 
   // Pieces on each of which Gauss's rule is exact, so that the integral rises wherever the formula is positive.
-  void append(double from, double to, double whole, int halvings) const {
+  void append(double from, double to, const Piece& whole, int halvings) const {
     const double middle = 0.5 * (from + to);
-    const double left = gauss(from, middle);
-    const double right = gauss(middle, to);
-    const bool rough = std::abs(left + right - whole) > smooth * (std::abs(left) + std::abs(right));
-    if (rough && halvings > 0 && room_ > 0) {
+    const Piece left = through(from, middle), right = through(middle, to);
+    const bool smooth = std::abs(left.whole() + right.whole() - whole.whole()) <=
+                            smooth_integral * (std::abs(left.whole()) + std::abs(right.whole())) &&
+                        follows(whole, from, left, middle, right, to);
+    if (!smooth && halvings > 0 && room_ > 0) {
       --room_;
       append(from, middle, left, halvings - 1);
       append(middle, to, right, halvings - 1);
       return;
     }
-    cuts_.push_back(to);
-    sums_.push_back(sums_.back() + left + right);
+    kept_.push_back({from, to_last_, smooth, whole});
+    to_last_ += smooth ? whole.whole() : left.whole() + right.whole();
+  }
+
+  // Whether the polynomial of a whole gives what those of its halves do.
+  static bool follows(const Piece& whole, double from, const Piece& left, double middle, const Piece& right, double to) {
+    const auto same = [&](const Piece& half, double temperature) {
+      const double value = half.value(temperature);
+      return std::abs(whole.value(temperature) - value) <= smooth_value * std::abs(value);
+    };
+    bool all = true;
+    for (const double s : {0.0, 0.3, 0.7, 1.0}) {
+      all = all && same(left, from + s * (middle - from)) && same(right, middle + s * (to - middle));
+    }
+    return all;
   }
 
   [[noreturn]] void refuse(double value, double temperature) const {
@@ -120,9 +204,10 @@ class Formula : public Curve::Form {
   ValueRule rule_;
   std::string text_;
   mutable std::once_flag cut_;
-  mutable std::vector<double> cuts_;  // where pieces begin and end [K]
-  mutable std::vector<double> sums_;  // integral from 0 K to each
-  mutable std::size_t room_ = 0;      // pieces that a kelvin may still be cut into
+  mutable std::vector<Kept> kept_;                    // ascending
+  mutable std::vector<std::size_t> first_of_kelvin_;  // of these, and their number
+  mutable double to_last_ = 0;                        // integral from 0 K to the end of the last
+  mutable std::size_t room_ = 0;                      // pieces that a kelvin may still be cut into
 };
 
 }  // namespace
@@ -159,10 +244,6 @@ double Curve::integral(double temperature) const {
 
 std::optional<double> Curve::constant() const {
   return form_ ? std::nullopt : std::optional(constant_);
-}
-
-bool Curve::can_be_shared() const {
-  return !form_ || form_->can_be_shared();
 }
 
 }  // namespace scree

@@ -28,7 +28,8 @@ class Curve {
   // From a file whose first column is `temperature`. Throws InputError.
   static Curve from_table(const std::filesystem::path& file, const ValueRule& rule);
 
-  // At a temperature [K]. Throws InputError that names the temperature at which a formula breaks the rule.
+  // At a temperature [K]; of a smooth formula to 1e-11 of its value. From any thread. Throws InputError that names the
+  // temperature at which a formula breaks the rule.
   double operator()(double temperature) const;
 
   // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, which is halved where
@@ -36,9 +37,6 @@ class Curve {
   [[nodiscard]] double integral(double temperature) const;
 
   [[nodiscard]] std::optional<double> constant() const;
-
-  // Whether threads evaluate it at the same time, without an exception. A formula's evaluations take turns.
-  [[nodiscard]] bool can_be_shared() const;
 
   struct Form;  // anything but a number
 
