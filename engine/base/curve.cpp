@@ -46,7 +46,7 @@ constexpr std::array gauss_weights{0.236926885056189088, 0.478628670499366468, 0
 class Piece {
  public:
   Piece(double from, double to, const std::array<double, gauss_count>& values)
-      : centre_(0.5 * (from + to)), half_(to - centre_) {
+      : centre_(0.5 * (from + to)), inverse_(2 / (to - from)) {
     // Newton's divided differences, then powers of s = (T - centre)/half.
     std::array<double, gauss_count> differences = values;
     for (std::size_t order = 1; order < gauss_count; ++order) {
@@ -60,31 +60,31 @@ class Piece {
       }
       powers_[0] = differences[i] - gauss_points[i] * powers_[0];
     }
-    for (std::size_t i = 0; i < gauss_count; ++i) whole_ += half_ * gauss_weights[i] * values[i];
+    const double half = 0.5 * (to - from);
+    for (std::size_t i = 0; i < gauss_count; ++i) {
+      rises_[i + 1] = half * powers_[i] / static_cast<double>(i + 1);
+      whole_ += half * gauss_weights[i] * values[i];
+    }
+    rises_[0] = -polynomial(rises_, -1);
   }
 
-  [[nodiscard]] double value(double temperature) const {
-    const double s = (temperature - centre_) / half_;
-    double sum = 0;
-    for (std::size_t power = gauss_count; power-- > 0;) sum = sum * s + powers_[power];
-    return sum;
-  }
+  [[nodiscard]] double value(double temperature) const { return polynomial(powers_, (temperature - centre_) * inverse_); }
 
   // From its beginning to its end, or to a temperature.
   [[nodiscard]] double whole() const { return whole_; }
-  [[nodiscard]] double integral_to(double temperature) const {
-    return antiderivative((temperature - centre_) / half_) - antiderivative(-1);
-  }
+  [[nodiscard]] double integral_to(double temperature) const { return polynomial(rises_, (temperature - centre_) * inverse_); }
 
  private:
-  [[nodiscard]] double antiderivative(double s) const {
+  template <std::size_t count>
+  static double polynomial(const std::array<double, count>& powers, double s) {
     double sum = 0;
-    for (std::size_t power = gauss_count; power-- > 0;) sum = (sum + powers_[power] / static_cast<double>(power + 1)) * s;
-    return half_ * sum;
+    for (std::size_t power = count; power-- > 0;) sum = sum * s + powers[power];
+    return sum;
   }
 
-  double centre_, half_;
-  std::array<double, gauss_count> powers_{};
+  double centre_, inverse_;                      // and 1 over half of its length
+  std::array<double, gauss_count> powers_{};     // of its value
+  std::array<double, gauss_count + 1> rises_{};  // of the integral from its beginning
   double whole_ = 0;
 };
 
