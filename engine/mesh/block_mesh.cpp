@@ -19,15 +19,6 @@ std::array<NodeId, dim> opposite_face(const std::array<NodeId, dim + 1>& element
   return nodes;
 }
 
-std::array<std::uint32_t, 2> ascending(const std::array<std::uint32_t, 2>& of) {
-  return {std::min(of[0], of[1]), std::max(of[0], of[1])};
-}
-
-std::array<std::uint32_t, 3> ascending(const std::array<std::uint32_t, 3>& of) {
-  const std::uint32_t low = std::min({of[0], of[1], of[2]}), high = std::max({of[0], of[1], of[2]});
-  return {low, of[0] ^ of[1] ^ of[2] ^ low ^ high, high};
-}
-
 }  // namespace
 
 template <int dim>
@@ -40,18 +31,15 @@ void add_boundary_faces(const BlockMesh<dim>& mesh, BlockId id, Table<FaceId, Fa
     for (int corner = 0; corner <= dim; ++corner) add(block.elements[0], corner);
     return;
   }
-  const auto for_each_face = [&](const auto& visit) {
-    for (const ElementId element : block.elements) {
-      for (int corner = 0; corner <= dim; ++corner) {
-        const auto nodes = opposite_face<dim>(mesh.elements[element], corner);
-        std::array<std::uint32_t, dim> face;
-        std::transform(nodes.begin(), nodes.end(), face.begin(),
-                       [&](NodeId node) { return static_cast<std::uint32_t>(node.index() - block.nodes.first()); });
-        visit(ascending(face));
-      }
+  const auto nodes_of = [&](std::size_t i) {
+    const auto& nodes = mesh.elements[block.elements[i]];
+    std::array<std::uint32_t, dim + 1> own;
+    for (int corner = 0; corner <= dim; ++corner) {
+      own[corner] = static_cast<std::uint32_t>(nodes[corner].index() - block.nodes.first());
     }
+    return own;
   };
-  for (const std::uint32_t place : lone_faces<dim>(block.nodes.size(), for_each_face)) {
+  for (const std::uint32_t place : lone_simplex_faces<dim>(block.nodes.size(), block.elements.size(), nodes_of)) {
     add(block.elements[place / (dim + 1)], static_cast<int>(place % (dim + 1)));
   }
 }

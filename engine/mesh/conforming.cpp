@@ -78,16 +78,12 @@ std::vector<LoneFace> lone_faces_of(const RawMesh& raw) {
     }
     return face;
   };
-  const auto for_each_face = [&](const auto& take) {
-    for (std::size_t element = 0; element < elements.size(); ++element) {
-      for (std::size_t out = 0; out <= dim; ++out) {
-        auto face = face_of(element, out);
-        std::sort(face.begin(), face.end());
-        take(face);
-      }
-    }
+  const auto nodes_of = [&](std::size_t element) {
+    std::array<std::uint32_t, dim + 1> nodes;
+    for (std::size_t i = 0; i <= dim; ++i) nodes[i] = static_cast<std::uint32_t>(elements[element].nodes[i]);
+    return nodes;
   };
-  for (const std::uint32_t place : lone_faces<dim>(raw.points.size(), for_each_face)) {
+  for (const std::uint32_t place : lone_simplex_faces<dim>(raw.points.size(), elements.size(), nodes_of)) {
     const auto nodes = face_of(place / (dim + 1), place % (dim + 1));
     LoneFace& face = lone.emplace_back(LoneFace{elements[place / (dim + 1)].number, dim, {}});
     std::copy(nodes.begin(), nodes.end(), face.nodes.begin());

@@ -10,13 +10,14 @@
 
 namespace scree::mesh {
 
-// `for_each_face(visit)` calls visit(nodes) with the nodes of every face, ascending, those of a block of `nodes` nodes from 0.
-// Returns the places, in that order, of the faces whose nodes no other face has, ascending.
+// `for_each_face(visit)` calls visit(nodes, place) with the nodes of every face, ascending, those of a block of `nodes` nodes
+// from 0; places are numbers from 0, one for each face, and every call gives the same. Returns the places of the faces whose
+// nodes no other face has, ascending.
 template <std::size_t corners, class ForEachFace>
 std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_each_face) {
-  using Face = std::array<std::uint32_t, corners>;
+  using Others = std::array<std::uint32_t, corners - 1>;  // nodes of a face but the least
   struct Entry {
-    std::array<std::uint32_t, corners - 1> others;  // than the least node
+    Others others;
     std::uint32_t place;
 
     // Without a branch, and without the call of a function that == of arrays is.
@@ -26,29 +27,63 @@ std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_
       return different == 0;
     }
   };
-  std::vector<std::uint32_t> begin(nodes + 1, 0);  // of each least node's entries, and the end
-  for_each_face([&](const Face& face) { ++begin[face.front() + 1]; });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Entry> entries(begin.back());  // each face once, as it comes first
-  std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
-  std::vector<char> lone(begin.back(), true);
-  std::uint32_t places = 0;
-  for_each_face([&](const Face& face) {
-    Entry entry{{}, places++};
-    std::copy(face.begin() + 1, face.end(), entry.others.begin());
-    const auto first = entries.begin() + begin[face.front()], last = entries.begin() + end[face.front()];
-    const auto same = std::find_if(first, last, [&](const Entry& other) { return other.same_nodes(entry); });
-    if (same == last) {
-      entries[end[face.front()]++] = entry;
-    } else {
-      lone[same->place] = lone[entry.place] = false;
-    }
+  std::vector<std::uint32_t> end(nodes + 1, 0);  // of each least node's entries
+  for_each_face([&](const std::array<std::uint32_t, corners>& face, std::uint32_t) { ++end[face.front() + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Entry> entries(end.back());
+  for_each_face([&](const std::array<std::uint32_t, corners>& face, std::uint32_t place) {
+    Entry& entry = entries[end[face.front()]++];
+    for (std::size_t i = 0; i + 1 < corners; ++i) entry.others[i] = face[i + 1];
+    entry.place = place;
   });
+  // Each end has moved from where its node's entries begin to where they end. Those of a node are few.
+  std::vector<char> lone(entries.size(), true);
+  std::uint32_t begin = 0;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    for (std::uint32_t i = begin; i < end[node]; ++i) {
+      for (std::uint32_t j = begin; j < i; ++j) {
+        if (entries[i].same_nodes(entries[j])) lone[entries[i].place] = lone[entries[j].place] = false;
+      }
+    }
+    begin = end[node];
+  }
   std::vector<std::uint32_t> alone;
-  for (std::uint32_t place = 0; place < places; ++place) {
+  for (std::uint32_t place = 0; place < lone.size(); ++place) {
     if (lone[place]) alone.push_back(place);
   }
   return alone;
+}
+
+// Of triangles or tetrahedra: places are (dim + 1) times the number of the simplex and the corner opposite to the face.
+// `nodes_of(simplex)` gives its nodes.
+template <int dim, class NodesOf>
+std::vector<std::uint32_t> lone_simplex_faces(std::size_t nodes, std::size_t simplices, const NodesOf& nodes_of) {
+  constexpr std::size_t corners = dim + 1;
+  return lone_faces<dim>(nodes, [&](const auto& visit) {
+    for (std::size_t simplex = 0; simplex < simplices; ++simplex) {
+      // Sorted once for all faces and without a branch, which no one could foretell.
+      std::array<std::uint64_t, corners> ascending;  // nodes, and in the lowest bits which corner it is
+      const std::array<std::uint32_t, corners> own = nodes_of(simplex);
+      for (std::size_t corner = 0; corner < corners; ++corner) ascending[corner] = std::uint64_t{own[corner]} << 2 | corner;
+      const auto order = [&](std::size_t i, std::size_t j) {
+        const std::uint64_t low = std::min(ascending[i], ascending[j]);
+        ascending[j] = std::max(ascending[i], ascending[j]);
+        ascending[i] = low;
+      };
+      if constexpr (dim == 3) {
+        order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+      } else {
+        order(0, 1), order(1, 2), order(0, 1);
+      }
+      for (std::size_t opposite = 0; opposite < corners; ++opposite) {
+        std::array<std::uint32_t, dim> face;
+        for (std::size_t i = 0; i < dim; ++i) {
+          face[i] = static_cast<std::uint32_t>(ascending[i < opposite ? i : i + 1] >> 2);
+        }
+        visit(face, static_cast<std::uint32_t>(corners * simplex + (ascending[opposite] & 3)));
+      }
+    }
+  });
 }
 
 }  // namespace scree::mesh

@@ -19,6 +19,7 @@ std::span<const std::array<std::size_t, 3>> face_triangles(std::size_t corners);
 template <class Cells, class Index, class Visit>
 void for_each_outer_face(const Cells& cells, std::size_t nodes, const Index& index, const Visit& visit) {
   const auto for_each_face = [&](const auto& take) {
+    std::uint32_t place = 0;
     for (const auto& cell : cells) {
       for (const CornerList corners : cell_faces(cell.kind)) {
         std::array<std::uint32_t, 4> face;  // of a triangle the greatest node twice
@@ -26,7 +27,7 @@ void for_each_outer_face(const Cells& cells, std::size_t nodes, const Index& ind
                        [&](std::size_t corner) { return static_cast<std::uint32_t>(index(cell.nodes[corner])); });
         if (corners.size() < 4) face[3] = *std::max_element(face.begin(), face.begin() + 3);
         std::sort(face.begin(), face.end());
-        take(face);
+        take(face, place++);
       }
     }
   };

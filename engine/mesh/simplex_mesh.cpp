@@ -145,18 +145,14 @@ std::vector<OuterFace<dim>> outer_faces(const SimplexMesh<dim>& mesh) {
     std::sort(face.begin(), face.end());
     return face;
   };
-  const auto for_each_face = [&](const auto& visit) {
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      for (std::size_t out = 0; out <= dim; ++out) {
-        std::array<std::uint32_t, dim> face;
-        const OuterFace<dim> nodes = face_of(e, out);
-        std::transform(nodes.begin(), nodes.end(), face.begin(), [](std::size_t n) { return static_cast<std::uint32_t>(n); });
-        visit(face);
-      }
-    }
+  const auto nodes_of = [&](std::size_t e) {
+    std::array<std::uint32_t, dim + 1> nodes;
+    std::transform(mesh.elements[e].begin(), mesh.elements[e].end(), nodes.begin(),
+                   [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+    return nodes;
   };
   std::vector<OuterFace<dim>> outer;
-  for (const std::uint32_t place : lone_faces<dim>(mesh.nodes.size(), for_each_face)) {
+  for (const std::uint32_t place : lone_simplex_faces<dim>(mesh.nodes.size(), mesh.elements.size(), nodes_of)) {
     outer.push_back(face_of(place / (dim + 1), place % (dim + 1)));
   }
   std::sort(outer.begin(), outer.end());
