@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/LU>
 
@@ -35,43 +36,73 @@ double angle_at(const Corners<dim>& corners, int corner) {
 }
 
 struct EdgeUse {
-  std::uint64_t nodes;  // the lower above the higher one, so that one comparison tells the order
+  NodeId low, high;
   FaceId face;
   int side;
 
-  friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
+  [[nodiscard]] bool is_before(const EdgeUse& other) const {
+    return low < other.low || (low == other.low && high < other.high);
+  }
+};
+
+// The uses of the edges of a block's faces in the order of their nodes, then faces. They are entered in the order of the faces,
+// each behind those of its lower node, which are few; where all are few, behind them all.
+class EdgeUses {
+ public:
+  const std::vector<EdgeUse>& of(const Surface<3>& surface, std::size_t first, std::size_t end, const IdRange<NodeId>& nodes) {
+    constexpr std::size_t few = 6;  // faces
+    const auto group = [&, apart = end - first > few](const EdgeUse& use) {
+      return apart ? use.low.index() - nodes.first() : 0;
+    };
+    const auto for_each = [&](const auto& visit) {
+      for (std::size_t f = first; f < end; ++f) {
+        const auto& corners = surface.faces[FaceId{f}].nodes;
+        for (int side = 0; side < 3; ++side) {
+          const NodeId from = corners[side], to = corners[(side + 1) % 3];
+          visit(EdgeUse{std::min(from, to), std::max(from, to), FaceId{f}, side});
+        }
+      }
+    };
+    begin_.assign((end - first > few ? nodes.size() : 1) + 1, 0);
+    for_each([&](const EdgeUse& use) { ++begin_[group(use) + 1]; });
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    end_.assign(begin_.begin(), begin_.end() - 1);
+    uses_.resize(begin_.back());
+    for_each([&](const EdgeUse& use) {
+      std::size_t at = end_[group(use)]++;
+      for (; at > begin_[group(use)] && use.is_before(uses_[at - 1]); --at) uses_[at] = uses_[at - 1];
+      uses_[at] = use;
+    });
+    return uses_;
+  }
+
+ private:
+  std::vector<EdgeUse> uses_;
+  std::vector<std::size_t> begin_, end_;  // of those of each lower node, begin_ with one more
 };
 
 // Joins the sorted uses of a block's edges in twos. Where four faces meet in one edge (a block that touches itself), this
 // gives two edges; where the boundary is open, an edge with the same face twice.
 void pair_uses(const std::vector<EdgeUse>& uses, std::vector<SurfaceEdge>& edges, Surface<3>& surface) {
   for (std::size_t i = 0; i < uses.size();) {
-    const bool paired = i + 1 < uses.size() && uses[i].nodes == uses[i + 1].nodes;
+    const EdgeUse& use = uses[i];
+    const bool paired = i + 1 < uses.size() && use.low == uses[i + 1].low && use.high == uses[i + 1].high;
     const EdgeUse& second = uses[paired ? i + 1 : i];
     const EdgeId edge{edges.size()};
-    edges.push_back({{NodeId{uses[i].nodes >> 32}, NodeId{uses[i].nodes & 0xffffffffu}}, {uses[i].face, second.face}});
-    surface.face_edges[uses[i].face][uses[i].side] = edge;
+    edges.push_back({{use.low, use.high}, {use.face, second.face}});
+    surface.face_edges[use.face][use.side] = edge;
     surface.face_edges[second.face][second.side] = edge;
     i += paired ? 2 : 1;
   }
 }
 
-// Edges of the blocks of a chunk, numbered from 0. Block by block, since no node is shared between blocks: many small
-// sorts are faster than a big one.
+// Edges of the blocks of a chunk, numbered from 0, block by block, since no node is shared between blocks.
 std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk blocks, Surface<3>& surface) {
   std::vector<SurfaceEdge> edges;
-  std::vector<EdgeUse> uses;
+  EdgeUses uses;
   for (std::size_t block = blocks.begin; block < blocks.end; ++block) {
-    uses.clear();
-    for (std::size_t f = starts[block]; f < starts[block + 1]; ++f) {
-      const auto& nodes = surface.faces[FaceId{f}].nodes;
-      for (int side = 0; side < 3; ++side) {
-        const auto [low, high] = std::minmax(nodes[side], nodes[(side + 1) % 3]);
-        uses.push_back({std::uint64_t{low.index()} << 32 | high.index(), FaceId{f}, side});
-      }
-    }
-    std::sort(uses.begin(), uses.end());
-    pair_uses(uses, edges, surface);
+    if (starts[block] == starts[block + 1]) continue;
+    pair_uses(uses.of(surface, starts[block], starts[block + 1], surface.mesh.blocks[BlockId{block}].nodes), edges, surface);
   }
   return edges;
 }
