@@ -36,7 +36,7 @@ double size_of(const Aabb<dim>& box) {
 }  // namespace
 
 template <int dim>
-BoxGrid<dim>::BoxGrid(const std::vector<Aabb<dim>>& boxes) {
+BoxGrid<dim>::BoxGrid(std::span<const Aabb<dim>> boxes) {
   if (boxes.empty()) return;
   Aabb<dim> all;
   for (const auto& box : boxes) all.extend(box);
@@ -58,7 +58,7 @@ BoxGrid<dim>::BoxGrid(const std::vector<Aabb<dim>>& boxes) {
 }
 
 template <int dim>
-void BoxGrid<dim>::make_level(const std::vector<Aabb<dim>>& boxes, std::vector<std::uint32_t> members) {
+void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, std::vector<std::uint32_t> members) {
   Level level;
   level.first = levels_.empty() ? 0 : levels_.back().first + levels_.back().count;
   level.count = static_cast<std::uint32_t>(members.size());
@@ -87,7 +87,7 @@ void BoxGrid<dim>::make_level(const std::vector<Aabb<dim>>& boxes, std::vector<s
 
 // The region that holds all boxes but a few far ones, as a power of two of cells each way, none of them too empty.
 template <int dim>
-void BoxGrid<dim>::choose_cells(const std::vector<Aabb<dim>>& boxes, const std::vector<std::uint32_t>& members,
+void BoxGrid<dim>::choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members,
                                 Level& level) const {
   std::array<double, dim> cells;
   for (int i = 0; i < dim; ++i) {

@@ -9,20 +9,22 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/lanes.h"
 #include "engine/base/geometry.h"
+#include "engine/base/written_later.h"
 
 namespace scree::contact {
 
 template <int dim>
 class BoxGrid {
  public:
-  explicit BoxGrid(const std::vector<Aabb<dim>>& boxes);
+  explicit BoxGrid(std::span<const Aabb<dim>> boxes);
 
   // Boxes in the order of their cells: neighbours in space are near in it. All below is told in places of this order.
-  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] const VectorWrittenLater<std::uint32_t>& order() const { return order_; }
 
   // Leaves in `found` the boxes that meet the one at a place. Of every two that meet, just one finds the other. A few that
   // are a ten-millionth of the scene's size apart are found, too.
@@ -46,11 +48,11 @@ class BoxGrid {
     std::array<double, dim> cells_per_metre{};
     std::array<double, dim> largest{};  // extents of its boxes [m]
     std::array<int, dim> bits{};        // of the number of cells before they repeat
-    std::vector<std::uint32_t> starts;  // of each slot, as places
+    LargeVector<std::uint32_t> starts;  // of each slot, as places
   };
 
-  void make_level(const std::vector<Aabb<dim>>& boxes, std::vector<std::uint32_t> members);
-  void choose_cells(const std::vector<Aabb<dim>>& boxes, const std::vector<std::uint32_t>& members, Level& level) const;
+  void make_level(std::span<const Aabb<dim>> boxes, std::vector<std::uint32_t> members);
+  void choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members, Level& level) const;
   [[nodiscard]] Packed pack(const Aabb<dim>& box) const;
   [[nodiscard]] std::size_t slot_of(const Level& level, const Aabb<dim>& box) const;
   void look_into(const Level& level, const Packed& box, std::uint32_t before, std::vector<std::uint32_t>& found) const;
@@ -58,8 +60,8 @@ class BoxGrid {
 
   Point<dim> origin_ = Point<dim>::Zero();
   std::vector<Level> levels_;  // from fine to coarse
-  std::vector<std::uint32_t> order_;
-  std::vector<Packed> packed_;
+  VectorWrittenLater<std::uint32_t> order_;
+  VectorWrittenLater<Packed> packed_;
 };
 
 }  // namespace scree::contact

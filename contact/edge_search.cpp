@@ -15,7 +15,7 @@ namespace scree::contact {
 namespace {
 
 // Which edges of a shell have a face with a semi-spring whose target is on a block, one bit each.
-unsigned edges_on(const Shell<3>& shell, const std::vector<BlockId>& spring_blocks, BlockId block) {
+unsigned edges_on(const Shell<3>& shell, const LargeVector<BlockId>& spring_blocks, BlockId block) {
   unsigned faces = 0;
   std::size_t spring = shell.first.index() * 3;
   for (unsigned f = 0; f < 4; ++f) {
@@ -36,7 +36,7 @@ struct Touching : Candidate<EdgeId> {
 // Asks the semi-edges of two shells about the edges of each other.
 class Asking {
  public:
-  Asking(const Surface<3>& surface, const ContactOptions& options, const std::vector<BlockId>& spring_blocks,
+  Asking(const Surface<3>& surface, const ContactOptions& options, const LargeVector<BlockId>& spring_blocks,
          std::vector<Touching>& found)
       : surface_(surface), options_(options), spring_blocks_(spring_blocks), found_(found) {}
 
@@ -135,7 +135,7 @@ class Asking {
 
   const Surface<3>& surface_;
   const ContactOptions& options_;
-  const std::vector<BlockId>& spring_blocks_;
+  const LargeVector<BlockId>& spring_blocks_;
   std::vector<Touching>& found_;
   std::vector<ShellEdges> asked_;
   std::vector<TouchingEdges> touching_;
@@ -145,12 +145,12 @@ class Asking {
 }  // namespace
 
 std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-                                         std::vector<std::vector<NearEdges>> near, const std::vector<BlockId>& spring_blocks) {
-  std::vector<std::vector<Touching>> parts(near.size());
+                                         const Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks) {
+  std::vector<std::vector<Touching>> parts(near.count());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < near.size(); ++i) {
+  for (std::size_t i = 0; i < near.count(); ++i) {
     Asking asking(surface, options, spring_blocks, parts[i]);
-    const auto& pairs = near[i];
+    const auto pairs = near[i];
     for (std::size_t n = 0; n < pairs.size(); ++n) {
       constexpr std::size_t ahead = 4;
       __builtin_prefetch(&table.shells[pairs[std::min(n + ahead, pairs.size() - 1)].second]);
@@ -158,7 +158,6 @@ std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const Contac
     }
     asking.finish();
   }
-  near = {};
   std::vector<Touching> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Touching& a, const Touching& b) { return a.semi_edge < b.semi_edge; });

@@ -8,6 +8,7 @@
 #include "contact/find_contacts.h"
 #include "contact/near_shells.h"
 #include "contact/touch.h"
+#include "engine/base/parts.h"
 
 namespace scree::contact {
 
@@ -25,9 +26,9 @@ struct NearEdges {
   EdgePairs edges;
 };
 
-// In the order of the semi-edges. `near`: all pairs of shells of the table that are near, chunk by chunk; `spring_blocks`: the
-// blocks of the targets of semi-springs. See target_search.h.
+// In the order of the semi-edges. `near`: all pairs of shells of the table that are near; `spring_blocks`: the blocks of the
+// targets of semi-springs. See target_search.h.
 std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-                                         std::vector<std::vector<NearEdges>> near, const std::vector<BlockId>& spring_blocks);
+                                         const Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks);
 
 }  // namespace scree::contact

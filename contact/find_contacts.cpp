@@ -146,7 +146,7 @@ class SemiSprings {
   const Surface<dim>& surface_;
   const ContactOptions& options_;
   Targets<dim> targets_;
-  std::vector<std::size_t> starts_;  // of the contacts of each face, and the end
+  LargeVector<std::size_t> starts_;  // of the contacts of each face, and the end
 };
 
 }  // namespace

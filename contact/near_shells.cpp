@@ -23,13 +23,13 @@ ShellTable<dim> make_shells(const Surface<dim>& surface, const ShellOptions& opt
   std::vector<FaceId> firsts = shell_starts(surface);
   const std::size_t count = firsts.size();
   firsts.emplace_back(surface.faces.size());
-  std::vector<Aabb<dim>> boxes(count);
+  LargeVector<Aabb<dim>> boxes(count);
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) boxes[i] = box_of(surface, firsts[i], firsts[i + 1], options);
   });
-  ShellTable<dim> table{std::vector<Shell<dim>>(count), BoxGrid<dim>(boxes)};
+  ShellTable<dim> table{VectorWrittenLater<Shell<dim>>(count), BoxGrid<dim>(boxes)};
   // In the order of the mesh: writing here and there waits for nothing, reading does.
-  std::vector<std::uint32_t> places(count);
+  VectorWrittenLater<std::uint32_t> places(count);
   for (std::uint32_t place = 0; place < count; ++place) places[table.grid.order()[place]] = place;
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {

@@ -9,13 +9,14 @@
 #include "contact/shell.h"
 #include "contact/wide_lanes.h"
 #include "engine/base/chunks.h"
+#include "engine/base/written_later.h"
 
 namespace scree::contact {
 
 // Shells in an order in which neighbours in space are near in memory.
 template <int dim>
 struct ShellTable {
-  std::vector<Shell<dim>> shells;
+  VectorWrittenLater<Shell<dim>> shells;
   BoxGrid<dim> grid;
 };
 
@@ -72,20 +73,22 @@ SCREE_INLINE void for_each_near(const ShellTable<dim>& table, std::uint32_t plac
   }
 }
 
-// Calls visit(chunk number, pair) once for every two shells of two blocks that no plane of theirs parts by more than what
-// touches may be apart; it is SCREE_INLINED. On all threads; the pairs of a chunk come one after the other and always in the
-// same order.
-template <int dim, class Visit>
-void visit_near(const ShellTable<dim>& table, const Visit& visit) {
+// Calls visit(pair, found) once for every two shells of two blocks that no plane of theirs parts by more than what touches may
+// be apart; it is SCREE_INLINED. What it leaves in `found`, which begins as `Found()`, is handed to keep(chunk number, found)
+// at the end of every chunk. On all threads; the pairs of a chunk come one after the other and always in the same order.
+template <class Found, int dim, class Visit, class Keep>
+void visit_near(const ShellTable<dim>& table, const Visit& visit, const Keep& keep) {
   for_chunks(table.shells.size(), [&](Chunk chunk) {
-    std::vector<std::uint32_t> found;
+    std::vector<std::uint32_t> places;
+    Found found;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const auto place = static_cast<std::uint32_t>(i);
-      table.grid.find(place, found);
+      table.grid.find(place, places);
       widely([&]() SCREE_INLINED {
-        for_each_near(table, place, found, [&](const ShellPair<dim>& pair) SCREE_INLINED { visit(chunk.number, pair); });
+        for_each_near(table, place, places, [&](const ShellPair<dim>& pair) SCREE_INLINED { visit(pair, found); });
       });
     }
+    keep(chunk.number, found);
   });
 }
 

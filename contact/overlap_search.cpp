@@ -9,6 +9,7 @@
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
+#include "engine/base/parts.h"
 
 namespace scree::contact {
 
@@ -61,21 +62,20 @@ SCREE_INLINE void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
 
 // Pairs by their first face.
 struct OrderedPairs {
-  std::vector<std::size_t> begin;  // of each face's pairs, and the end
-  std::vector<FaceId> second;      // ascending for each face
+  LargeVector<std::size_t> begin;     // of each face's pairs, and the end
+  VectorWrittenLater<FaceId> second;  // ascending for each face
 };
 
 // In the order of their faces, which takes no sorting of them all: each is put where its first face's are, and those are few.
-OrderedPairs ordered(std::vector<FacePairs>&& parts, std::size_t faces) {
-  OrderedPairs pairs{std::vector<std::size_t>(faces + 2, 0), {}};
-  for (const FacePairs& part : parts) {
-    for (const auto& pair : part) ++pairs.begin[pair.first.index() + 2];
+OrderedPairs ordered(const Parts<std::pair<FaceId, FaceId>>& parts, std::size_t faces) {
+  OrderedPairs pairs{LargeVector<std::size_t>(faces + 2, 0), {}};
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    for (const auto& pair : parts[i]) ++pairs.begin[pair.first.index() + 2];
   }
   std::partial_sum(pairs.begin.begin(), pairs.begin.end(), pairs.begin.begin());
   pairs.second.resize(pairs.begin.back());
-  for (FacePairs& part : parts) {
-    for (const auto& [first, second] : part) pairs.second[pairs.begin[first.index() + 1]++] = second;
-    part = {};
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    for (const auto& [first, second] : parts[i]) pairs.second[pairs.begin[first.index() + 1]++] = second;
   }
   pairs.begin.pop_back();
   const auto place = [&](std::size_t at) { return pairs.second.begin() + static_cast<std::ptrdiff_t>(at); };
@@ -90,11 +90,14 @@ template <int dim, class Wanted>
 OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
   const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
   const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
-  std::vector<FacePairs> found(chunk_count(table.shells.size()));
-  visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) SCREE_INLINED {
-    if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, found[chunk]);
-  });
-  return ordered(std::move(found), surface.faces.size());
+  Parts<std::pair<FaceId, FaceId>> found(chunk_count(table.shells.size()));
+  visit_near<FacePairs>(
+      table,
+      [&](const ShellPair<dim>& pair, FacePairs& pairs) SCREE_INLINED {
+        if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, pairs);
+      },
+      [&](std::size_t chunk, const FacePairs& pairs) { found.put(chunk, pairs); });
+  return ordered(found, surface.faces.size());
 }
 
 // What work(chunk, into) appends for every chunk of [0, count), in order. On all threads, some chunks at a time: what they give

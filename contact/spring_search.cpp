@@ -23,10 +23,10 @@ namespace {
 // Of each shell those that its semi-springs may touch, in no order of note.
 class NearShells {
  public:
-  NearShells(std::size_t shells, std::vector<std::vector<NearSprings>> near) {
+  NearShells(std::size_t shells, const Parts<NearSprings>& near) {
     const auto for_all = [&](const auto& enter) {
 #pragma omp parallel for schedule(dynamic)
-      for (std::size_t i = 0; i < near.size(); ++i) {
+      for (std::size_t i = 0; i < near.count(); ++i) {
         for (const auto& [own, other] : near[i]) enter(own, other);
       }
     };
@@ -55,7 +55,7 @@ class NearShells {
 
  private:
   std::vector<std::uint32_t> starts_;  // of each shell, and the end
-  std::vector<NearShell> others_;
+  VectorWrittenLater<NearShell> others_;
 };
 
 // Of the semi-springs of a shell by their numbers (spring_list.h): where the vertex is among the corners of the face.
@@ -241,10 +241,11 @@ class SpringSearch {
 
 template <int dim>
 SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       std::vector<std::vector<NearSprings>> near) {
-  const NearShells near_shells(table.shells.size(), std::move(near));
+                                       std::unique_ptr<Parts<NearSprings>> near) {
+  const NearShells near_shells(table.shells.size(), *near);
+  near.reset();
   const std::size_t springs = surface.faces.size() * dim;
-  SpringTargets<dim> targets{std::vector<FaceId>(springs), std::vector<BlockId>(springs)};
+  SpringTargets<dim> targets{LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
   targets.touches.resize(springs);
   for_chunks(table.shells.size(), [&](Chunk chunk) {
     SpringSearch<dim> search(surface, options, table, near_shells, targets);
@@ -256,7 +257,7 @@ SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const Contac
 
 #define SCREE_INSTANTIATE(dim)                                                                                             \
   template SpringTargets<dim> find_spring_targets<dim>(const Surface<dim>&, const ContactOptions&, const ShellTable<dim>&, \
-                                                       std::vector<std::vector<NearSprings>>);
+                                                       std::unique_ptr<Parts<NearSprings>>);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

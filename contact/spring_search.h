@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "contact/find_contacts.h"
 #include "contact/near_springs.h"
+#include "engine/base/parts.h"
 
 namespace scree::contact {
 
@@ -20,14 +21,14 @@ struct SpringTouch {
 // Of corner c of face f at f * dim + c.
 template <int dim>
 struct SpringTargets {
-  std::vector<FaceId> faces;                       // invalid if it touches nothing
-  std::vector<BlockId> blocks;                     // those of these faces
+  LargeVector<FaceId> faces;                       // invalid if it touches nothing
+  LargeVector<BlockId> blocks;                     // those of these faces
   VectorWrittenLater<SpringTouch<dim>> touches{};  // of those that have a target
 };
 
-// `near`: all pairs of shells of the table that are near, chunk by chunk. See target_search.h.
+// `near`: all pairs of shells of the table that are near; it goes as soon as it is read. See target_search.h.
 template <int dim>
 SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       std::vector<std::vector<NearSprings>> near);
+                                       std::unique_ptr<Parts<NearSprings>> near);
 
 }  // namespace scree::contact

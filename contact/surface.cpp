@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "engine/base/chunks.h"
+#include "engine/base/parts.h"
 
 namespace scree::contact {
 
@@ -108,12 +109,13 @@ std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk 
 }
 
 void add_edges(const std::vector<std::size_t>& starts, const std::vector<Chunk>& blocks, Surface<3>& surface) {
-  surface.face_edges = Table<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
-  std::vector<std::vector<SurfaceEdge>> parts(blocks.size());
-  for_chunks(blocks, [&](Chunk chunk) { parts[chunk.number] = edges_of(starts, chunk, surface); });
-  std::vector<std::size_t> before(parts.size() + 1, 0);
-  for (std::size_t i = 0; i < parts.size(); ++i) before[i + 1] = before[i] + parts[i].size();
-  surface.edges = Table<EdgeId, SurfaceEdge>(before.back());
+  surface.face_edges =
+      FoundTable<FaceId, std::array<EdgeId, 3>>(VectorWrittenLater<std::array<EdgeId, 3>>(surface.faces.size()));
+  Parts<SurfaceEdge> parts(blocks.size());
+  for_chunks(blocks, [&](Chunk chunk) { parts.put(chunk.number, edges_of(starts, chunk, surface)); });
+  std::vector<std::size_t> before(parts.count() + 1, 0);
+  for (std::size_t i = 0; i < parts.count(); ++i) before[i + 1] = before[i] + parts[i].size();
+  surface.edges = FoundTable<EdgeId, SurfaceEdge>(VectorWrittenLater<SurfaceEdge>(before.back()));
   for_chunks(blocks, [&](Chunk chunk) {
     std::copy(parts[chunk.number].begin(), parts[chunk.number].end(),
               surface.edges.begin() + static_cast<std::ptrdiff_t>(before[chunk.number]));
@@ -182,9 +184,9 @@ template <int dim>
 Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
   Surface<dim> surface{mesh, std::move(faces), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
-  surface.normals = Table<FaceId, Point<dim>>(count);
-  surface.areas = Table<FaceId, double>(count);
-  surface.lengths = Table<FaceId, double>(count);
+  surface.normals = FoundTable<FaceId, Point<dim>>(VectorWrittenLater<Point<dim>>(count));
+  surface.areas = FoundTable<FaceId, double>(VectorWrittenLater<double>(count));
+  surface.lengths = FoundTable<FaceId, double>(VectorWrittenLater<double>(count));
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, surface);
   });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/face_point.h"
+#include "engine/base/written_later.h"
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::contact {
@@ -17,20 +18,24 @@ struct SurfaceEdge {
   std::array<FaceId, 2> faces;  // ascending
 };
 
+// Tables of what is found for every face or edge, each entry by one thread.
+template <class IdType, class Item>
+using FoundTable = Table<IdType, Item, VectorWrittenLater<Item>>;
+
 template <int dim>
 struct Surface {
   const mesh::BlockMesh<dim>& mesh;  // of the caller, who keeps it
   Table<FaceId, mesh::Face<dim>> faces;
-  Table<FaceId, Point<dim>> normals;  // unit, outwards
-  Table<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)
-  Table<FaceId, double> lengths;      // characteristic length of the face's element, eq. (11) [m]
+  FoundTable<FaceId, Point<dim>> normals;  // unit, outwards
+  FoundTable<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)
+  FoundTable<FaceId, double> lengths;      // characteristic length of the face's element, eq. (11) [m]
   // The rims, if they have been added: what is asked where a point is closest to a node or an edge.
   // Of the blocks of several elements, the mean of the faces around, weighted by their angle there; any length. It is asked too
   // rarely for the others.
   Table<NodeId, Point<dim>> node_normals;
   // 3-D only. Edge i of a face joins its corners i and i + 1.
-  Table<EdgeId, SurfaceEdge> edges;
-  Table<FaceId, std::array<EdgeId, 3>> face_edges;
+  FoundTable<EdgeId, SurfaceEdge> edges;
+  FoundTable<FaceId, std::array<EdgeId, 3>> face_edges;
 };
 
 // Of some of the boundary faces, in the order of their blocks and elements, without the rims.

@@ -1,5 +1,6 @@
 #include "contact/target_search.h"
 
+#include <memory>
 #include <utility>
 
 #include "contact/edge_search.h"
@@ -9,27 +10,38 @@
 
 namespace scree::contact {
 
+namespace {
+
+template <int dim>
+struct Near {
+  std::vector<NearSprings> springs;
+  std::vector<NearEdges> edges;  // empty in 2-D
+};
+
+}  // namespace
+
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
   const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
   const std::size_t chunks = chunk_count(table.shells.size());
-  std::vector<std::vector<NearSprings>> near_springs(chunks);
+  auto near_springs = std::make_unique<Parts<NearSprings>>(chunks);
+  Parts<NearEdges> near(chunks);
   const auto indentation = static_cast<float>(options.indentation);
-  Targets<dim> targets;
-  if constexpr (dim == 2) {
-    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair)
-                               SCREE_INLINED { add_near_springs(pair, indentation, near_springs[chunk]); });
-    targets.of_springs = find_spring_targets(surface, options, table, std::move(near_springs));
-  } else {
-    std::vector<std::vector<NearEdges>> near(chunks);
-    visit_near<dim>(table, [&](std::size_t chunk, const ShellPair<dim>& pair) SCREE_INLINED {
-      add_near_springs(pair, indentation, near_springs[chunk]);
-      const EdgePairs edges = near_edges(pair);
-      if (edges != 0) near[chunk].push_back({pair.first_place, pair.second_place, edges});
-    });
-    targets.of_springs = find_spring_targets(surface, options, table, std::move(near_springs));
-    targets.of_edges = find_edge_targets(surface, options, table, std::move(near), targets.of_springs.blocks);
-  }
+  visit_near<Near<dim>>(
+      table,
+      [&](const ShellPair<dim>& pair, Near<dim>& found) SCREE_INLINED {
+        add_near_springs(pair, indentation, found.springs);
+        if constexpr (dim == 3) {
+          const EdgePairs edges = near_edges(pair);
+          if (edges != 0) found.edges.push_back({pair.first_place, pair.second_place, edges});
+        }
+      },
+      [&](std::size_t chunk, const Near<dim>& found) {
+        near_springs->put(chunk, found.springs);
+        near.put(chunk, found.edges);
+      });
+  Targets<dim> targets{find_spring_targets(surface, options, table, std::move(near_springs)), {}};
+  if constexpr (dim == 3) targets.of_edges = find_edge_targets(surface, options, table, near, targets.of_springs.blocks);
   return targets;
 }
 

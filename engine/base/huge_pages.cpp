@@ -6,18 +6,11 @@
 
 namespace scree {
 
-namespace {
-
-constexpr std::uintptr_t huge = 1 << 21;
-constexpr std::size_t worth_it = 4 * huge;
-
-}  // namespace
-
 void prefer_huge_pages(void* data, std::size_t bytes) {
-  if (bytes < worth_it) return;
+  if (bytes < worth_huge_pages) return;
   const auto address = reinterpret_cast<std::uintptr_t>(data);
-  const std::uintptr_t begin = (address + huge - 1) / huge * huge;
-  const std::uintptr_t end = (address + bytes) / huge * huge;
+  const std::uintptr_t begin = (address + huge_page - 1) / huge_page * huge_page;
+  const std::uintptr_t end = (address + bytes) / huge_page * huge_page;
   madvise(static_cast<char*>(data) + (begin - address), end - begin, MADV_HUGEPAGE);
 }
 

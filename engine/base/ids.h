@@ -79,12 +79,12 @@ class IdRange {
 };
 
 // A vector that is indexed by one kind of id only.
-template <class IdType, class T>
+template <class IdType, class T, class Vector = std::vector<T>>
 class Table {
  public:
   Table() = default;
   explicit Table(std::size_t size, const T& value = T{}) : data_(size, value) {}
-  explicit Table(std::vector<T> data) : data_(std::move(data)) {}
+  explicit Table(Vector data) : data_(std::move(data)) {}
 
   decltype(auto) operator[](IdType id) { return data_[id.index()]; }
   decltype(auto) operator[](IdType id) const { return data_[id.index()]; }
@@ -98,7 +98,7 @@ class Table {
   [[nodiscard]] std::size_t size() const { return data_.size(); }
   [[nodiscard]] bool empty() const { return data_.empty(); }
   [[nodiscard]] IdRange<IdType> ids() const { return {0, data_.size()}; }
-  [[nodiscard]] const std::vector<T>& raw() const { return data_; }
+  [[nodiscard]] const Vector& raw() const { return data_; }
 
   [[nodiscard]] auto begin() { return data_.begin(); }
   [[nodiscard]] auto end() { return data_.end(); }
@@ -108,7 +108,7 @@ class Table {
   friend bool operator==(const Table&, const Table&) = default;
 
  private:
-  std::vector<T> data_;
+  Vector data_;
 };
 
 }  // namespace scree

@@ -4,16 +4,32 @@
 
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "engine/base/large_vector.h"
 
 namespace scree {
 
 template <class Item>
-struct WrittenLater : std::allocator<Item> {
+struct WrittenLater : LargeAllocator<Item> {
+  template <class Other>
+  struct rebind {
+    using other = WrittenLater<Other>;
+  };
+
+  WrittenLater() = default;
+  template <class Other>
+  explicit WrittenLater(const WrittenLater<Other>&) noexcept {}
+
   // Whoever asked for the element assigns to it before it is read.
   template <class Made>
   void construct(Made*) noexcept {
-    static_assert(std::is_trivially_copyable_v<Made> && std::is_aggregate_v<Made>);
+    static_assert(std::is_trivially_destructible_v<Made>);
+  }
+  template <class Made, class... Arguments>
+  void construct(Made* item, Arguments&&... arguments) {
+    std::construct_at(item, std::forward<Arguments>(arguments)...);
   }
 };
 

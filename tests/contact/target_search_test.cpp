@@ -18,8 +18,8 @@ Target choose(std::vector<Candidate<Target>>& candidates, double equal) {
   return best == nullptr ? Target{} : best->target;
 }
 
-std::vector<FaceId> ask_every_face(const Surface<3>& surface, const ContactOptions& options) {
-  std::vector<FaceId> targets;
+LargeVector<FaceId> ask_every_face(const Surface<3>& surface, const ContactOptions& options) {
+  LargeVector<FaceId> targets;
   for (const FaceId own : surface.faces.ids()) {
     for (int corner = 0; corner < 3; ++corner) {
       std::vector<Candidate<FaceId>> candidates;
@@ -34,7 +34,7 @@ std::vector<FaceId> ask_every_face(const Surface<3>& surface, const ContactOptio
   return targets;
 }
 
-bool on_block(const Surface<3>& surface, const std::vector<FaceId>& springs, const std::array<FaceId, 2>& faces,
+bool on_block(const Surface<3>& surface, const LargeVector<FaceId>& springs, const std::array<FaceId, 2>& faces,
               BlockId block) {
   for (const FaceId face : faces) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -46,7 +46,7 @@ bool on_block(const Surface<3>& surface, const std::vector<FaceId>& springs, con
 }
 
 std::vector<EdgeId> ask_every_edge(const Surface<3>& surface, const ContactOptions& options,
-                                   const std::vector<FaceId>& springs) {
+                                   const LargeVector<FaceId>& springs) {
   std::vector<EdgeId> targets;
   for (const FaceId own : surface.faces.ids()) {
     for (int side = 0; side < 3; ++side) {
