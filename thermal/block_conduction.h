@@ -66,7 +66,8 @@ SCREE_INLINE Point<dim> gradient(const Corners<dim>& points, const CornerValues<
 
 // q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K], a number or a Tensor.
 template <int dim, class Conductivity>
-Point<dim> element_flux(const Corners<dim>& points, const Conductivity& conductivity, const CornerValues<dim>& temperatures) {
+SCREE_INLINE Point<dim> element_flux(const Corners<dim>& points, const Conductivity& conductivity,
+                                     const CornerValues<dim>& temperatures) {
   return -(conductivity * gradient<dim>(points, temperatures));
 }
 

@@ -149,8 +149,10 @@ class BlockFlux {
         value_(material_of(mesh, materials, block).conductivity->value),
         constant_(value_.constant()),
         isotropic_(material_of(mesh, materials, block).conductivity->isotropic()),
-        tensor_(constant_.value_or(1) *
-                conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block])) {}
+        size_(constant_.value_or(1)) {
+    if (isotropic_) return;
+    tensor_ = size_ * conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block]);
+  }
 
   Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
     CornerValues<dim> corner;  // Kirchhoff's Phi where the conductivity depends on temperature (heat_balance.h)
@@ -159,7 +161,7 @@ class BlockFlux {
       corner[i] = constant_ ? at : value_.integral(at);
     }
     const Corners<dim> points = corner_points<dim>(mesh_, nodes);
-    return isotropic_ ? element_flux<dim>(points, tensor_(0, 0), corner) : element_flux<dim>(points, tensor_, corner);
+    return isotropic_ ? element_flux<dim>(points, size_, corner) : element_flux<dim>(points, tensor_, corner);
   }
 
   // Over both splits, by volume.
@@ -179,6 +181,7 @@ class BlockFlux {
   const Curve& value_;
   std::optional<double> constant_;
   bool isotropic_;
+  double size_;  // of the conductivity, or of what Phi leaves of it
   Tensor<dim> tensor_;
 };
 

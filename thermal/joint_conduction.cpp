@@ -179,7 +179,7 @@ double perfect_flow(const PerfectTerm<dim>& term, const JointConduction<dim>& co
 template <int dim>
 void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact) {
   constexpr std::size_t line = 64;
-  const std::size_t ahead = std::min(contact + 16, contacts.size() - 1);
+  const std::size_t ahead = std::min(contact + 32, contacts.size() - 1);
   const char* start = reinterpret_cast<const char*>(&contacts[ahead]);
   for (std::size_t at = 0; at < sizeof contacts[0]; at += line) __builtin_prefetch(start + at);
 }

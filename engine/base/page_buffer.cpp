@@ -5,6 +5,8 @@
 #include <cstring>
 #include <new>
 
+#include "engine/base/huge_pages.h"
+
 namespace scree {
 
 void PageBuffer::Free::operator()(char* bytes) const {
@@ -13,12 +15,16 @@ void PageBuffer::Free::operator()(char* bytes) const {
 
 char* PageBuffer::room(std::size_t count) {
   if (size_ + count > capacity_) {
-    const std::size_t pages = std::max((size_ + count + page - 1) / page, 2 * capacity_ / page);
-    std::unique_ptr<char, Free> larger(static_cast<char*>(std::aligned_alloc(page, pages * page)));
+    const std::size_t wanted = std::max(size_ + count, 2 * capacity_);
+    // Every write looks up the pages, whose number is then hundreds of times less.
+    const std::size_t unit = wanted > huge_page / 2 ? huge_page : page;
+    const std::size_t capacity = (wanted + unit - 1) / unit * unit;
+    std::unique_ptr<char, Free> larger(static_cast<char*>(std::aligned_alloc(unit, capacity)));
     if (!larger) throw std::bad_alloc();
+    prefer_huge_pages(larger.get(), capacity, huge_page);
     if (size_ > 0) std::memcpy(larger.get(), bytes_.get(), size_);
     bytes_ = std::move(larger);
-    capacity_ = pages * page;
+    capacity_ = capacity;
   }
   return bytes_.get() + size_;
 }
