@@ -30,9 +30,10 @@ Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Stencil<dim>& stenci
   return sum;
 }
 
-// There are many: in 3-D one fills two lines of a cache. What follows from the rest is told by the functions below.
+// There are many: in 3-D one fills two lines of a cache, and no part of a third. What follows from the rest is told by the
+// functions below.
 template <int dim>
-struct Contact {
+struct alignas(dim == 3 ? 64 : alignof(double)) Contact {
   Kind kind = Kind::point_face;
   BlockId owner;            // of the semi-spring or semi-edge; of an overlap, the block of the lower face
   BlockId target;           // always another block than the owner

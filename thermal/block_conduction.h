@@ -11,6 +11,8 @@
 // . k S_b / (dim^2 V).
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "engine/base/material.h"
@@ -52,15 +54,19 @@ Corners<dim> opposite_areas(const Corners<dim>& points);
 // and a frame asks for this of every element.
 template <int dim>
 SCREE_INLINE Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values) {
-  const Eigen::Matrix<double, dim, dim> ways = points.template rightCols<dim>().colwise() - points.col(0);
-  const Point<dim> rises = values.template tail<dim>().array() - values[0];
+  std::array<Point<dim>, dim> ways;
+  std::array<double, dim> rises;
+  for (int a = 0; a < dim; ++a) {
+    ways[a] = points.col(a + 1) - points.col(0);
+    rises[a] = values[a + 1] - values[0];
+  }
   if constexpr (dim == 2) {
-    const auto across = [&](int a) { return Point<2>(ways(1, a), -ways(0, a)); };
-    return (rises[0] * across(1) - rises[1] * across(0)) / ways.col(0).dot(across(1));
+    const auto across = [](const Point<2>& way) { return Point<2>(way[1], -way[0]); };
+    return 1 / ways[0].dot(across(ways[1])) * (rises[0] * across(ways[1]) - rises[1] * across(ways[0]));
   } else {
-    const Point<3> across = ways.col(1).cross(ways.col(2));
-    return (rises[0] * across + rises[1] * ways.col(2).cross(ways.col(0)) + rises[2] * ways.col(0).cross(ways.col(1))) /
-           ways.col(0).dot(across);
+    const Point<3> across = ways[1].cross(ways[2]);
+    return 1 / ways[0].dot(across) *
+           (rises[0] * across + rises[1] * ways[2].cross(ways[0]) + rises[2] * ways[0].cross(ways[1]));
   }
 }
 

@@ -155,13 +155,14 @@ class BlockFlux {
   }
 
   Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
-    CornerValues<dim> corner;  // Kirchhoff's Phi where the conductivity depends on temperature (heat_balance.h)
-    for (int i = 0; i <= dim; ++i) {
-      const double at = temperature[nodes[i].value()];
-      corner[i] = constant_ ? at : value_.integral(at);
+    const auto at = [&](int corner) { return temperature[nodes[corner].value()]; };
+    CornerValues<dim> values;
+    if (constant_) {
+      for (int i = 0; i <= dim; ++i) values[i] = at(i);
+      return of(values, nodes);
     }
-    const Corners<dim> points = corner_points<dim>(mesh_, nodes);
-    return isotropic_ ? element_flux<dim>(points, size_, corner) : element_flux<dim>(points, tensor_, corner);
+    for (int i = 0; i <= dim; ++i) values[i] = value_.integral(at(i));  // Kirchhoff's Phi (heat_balance.h)
+    return of(values, nodes);
   }
 
   // Over both splits, by volume.
@@ -177,6 +178,11 @@ class BlockFlux {
   }
 
  private:
+  SCREE_INLINE Point<dim> of(const CornerValues<dim>& corner, const mesh::Simplex<dim>& nodes) const {
+    const Corners<dim> points = corner_points<dim>(mesh_, nodes);
+    return isotropic_ ? element_flux<dim>(points, size_, corner) : element_flux<dim>(points, tensor_, corner);
+  }
+
   const mesh::BlockMesh<dim>& mesh_;
   const Curve& value_;
   std::optional<double> constant_;
