@@ -175,13 +175,14 @@ double perfect_flow(const PerfectTerm<dim>& term, const JointConduction<dim>& co
   return conduction.conductances[term.contact] * drop - flux;
 }
 
-// The processor begins to read a contact some way ahead: they are too many for its caches, and by itself it starts too late.
+// The processor begins to read a contact some way ahead: they are too many for its caches, and by itself it starts too late. No
+// cache need keep it, where it would take the place of what the computing threads use.
 template <int dim>
 void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact) {
   constexpr std::size_t line = 64;
   const std::size_t ahead = std::min(contact + 32, contacts.size() - 1);
   const char* start = reinterpret_cast<const char*>(&contacts[ahead]);
-  for (std::size_t at = 0; at < sizeof contacts[0]; at += line) __builtin_prefetch(start + at);
+  for (std::size_t at = 0; at < sizeof contacts[0]; at += line) __builtin_prefetch(start + at, 0, 0);
 }
 
 // And the temperatures that one will ask for which has been read by now: the target's lie anywhere.
