@@ -145,7 +145,7 @@ class Asking {
 }  // namespace
 
 std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-                                         const Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks) {
+                                         Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks) {
   std::vector<std::vector<Touching>> parts(near.count());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < near.count(); ++i) {
@@ -158,6 +158,7 @@ std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const Contac
     }
     asking.finish();
   }
+  near.clear();
   std::vector<Touching> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Touching& a, const Touching& b) { return a.semi_edge < b.semi_edge; });

@@ -26,9 +26,9 @@ struct NearEdges {
   EdgePairs edges;
 };
 
-// In the order of the semi-edges. `near`: all pairs of shells of the table that are near; `spring_blocks`: the blocks of the
-// targets of semi-springs. See target_search.h.
+// In the order of the semi-edges. `near`: all pairs of shells of the table that are near, emptied as soon as they are read;
+// `spring_blocks`: the blocks of the targets of semi-springs. See target_search.h.
 std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
-                                         const Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks);
+                                         Parts<NearEdges>& near, const LargeVector<BlockId>& spring_blocks);
 
 }  // namespace scree::contact

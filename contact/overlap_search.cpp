@@ -67,15 +67,15 @@ struct OrderedPairs {
 };
 
 // In the order of their faces, which takes no sorting of them all: each is put where its first face's are, and those are few.
-OrderedPairs ordered(const Parts<std::pair<FaceId, FaceId>>& parts, std::size_t faces) {
+OrderedPairs ordered(const Parts<FacePairs::value_type>& parts, std::size_t faces) {
   OrderedPairs pairs{LargeVector<std::size_t>(faces + 2, 0), {}};
-  for (std::size_t i = 0; i < parts.count(); ++i) {
-    for (const auto& pair : parts[i]) ++pairs.begin[pair.first.index() + 2];
+  for (const auto& part : parts) {
+    for (const auto& pair : part) ++pairs.begin[pair.first.index() + 2];
   }
   std::partial_sum(pairs.begin.begin(), pairs.begin.end(), pairs.begin.begin());
   pairs.second.resize(pairs.begin.back());
-  for (std::size_t i = 0; i < parts.count(); ++i) {
-    for (const auto& [first, second] : parts[i]) pairs.second[pairs.begin[first.index() + 1]++] = second;
+  for (const auto& part : parts) {
+    for (const auto& [first, second] : part) pairs.second[pairs.begin[first.index() + 1]++] = second;
   }
   pairs.begin.pop_back();
   const auto place = [&](std::size_t at) { return pairs.second.begin() + static_cast<std::ptrdiff_t>(at); };
@@ -90,7 +90,7 @@ template <int dim, class Wanted>
 OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wanted& wanted) {
   const ShellTable<dim> table = make_shells(surface, {tolerance, 0});
   const auto body_of = [&](const Shell<dim>& shell) { return surface.mesh.blocks[shell.block].body; };
-  Parts<std::pair<FaceId, FaceId>> found(chunk_count(table.shells.size()));
+  Parts<FacePairs::value_type> found(chunk_count(table.shells.size()));
   visit_near<FacePairs>(
       table,
       [&](const ShellPair<dim>& pair, FacePairs& pairs) SCREE_INLINED {

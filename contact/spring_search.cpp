@@ -241,9 +241,9 @@ class SpringSearch {
 
 template <int dim>
 SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       std::unique_ptr<Parts<NearSprings>> near) {
-  const NearShells near_shells(table.shells.size(), *near);
-  near.reset();
+                                       Parts<NearSprings>& near) {
+  const NearShells near_shells(table.shells.size(), near);
+  near.clear();
   const std::size_t springs = surface.faces.size() * dim;
   SpringTargets<dim> targets{LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
   targets.touches.resize(springs);
@@ -257,7 +257,7 @@ SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const Contac
 
 #define SCREE_INSTANTIATE(dim)                                                                                             \
   template SpringTargets<dim> find_spring_targets<dim>(const Surface<dim>&, const ContactOptions&, const ShellTable<dim>&, \
-                                                       std::unique_ptr<Parts<NearSprings>>);
+                                                       Parts<NearSprings>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 
 #include "contact/find_contacts.h"
 #include "contact/near_springs.h"
@@ -26,9 +25,9 @@ struct SpringTargets {
   VectorWrittenLater<SpringTouch<dim>> touches{};  // of those that have a target
 };
 
-// `near`: all pairs of shells of the table that are near; it goes as soon as it is read. See target_search.h.
+// `near`: all pairs of shells of the table that are near, emptied as soon as they are read. See target_search.h.
 template <int dim>
 SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       std::unique_ptr<Parts<NearSprings>> near);
+                                       Parts<NearSprings>& near);
 
 }  // namespace scree::contact

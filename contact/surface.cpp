@@ -52,9 +52,8 @@ class EdgeUses {
  public:
   const std::vector<EdgeUse>& of(const Surface<3>& surface, std::size_t first, std::size_t end, const IdRange<NodeId>& nodes) {
     constexpr std::size_t few = 6;  // faces
-    const auto group = [&, apart = end - first > few](const EdgeUse& use) {
-      return apart ? use.low.index() - nodes.first() : 0;
-    };
+    const bool apart = end - first > few;
+    const auto group = [&](const EdgeUse& use) { return apart ? use.low.index() - nodes.first() : 0; };
     const auto for_each = [&](const auto& visit) {
       for (std::size_t f = first; f < end; ++f) {
         const auto& corners = surface.faces[FaceId{f}].nodes;
@@ -64,7 +63,7 @@ class EdgeUses {
         }
       }
     };
-    begin_.assign((end - first > few ? nodes.size() : 1) + 1, 0);
+    begin_.assign((apart ? nodes.size() : 1) + 1, 0);
     for_each([&](const EdgeUse& use) { ++begin_[group(use) + 1]; });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     end_.assign(begin_.begin(), begin_.end() - 1);
@@ -109,13 +108,12 @@ std::vector<SurfaceEdge> edges_of(const std::vector<std::size_t>& starts, Chunk 
 }
 
 void add_edges(const std::vector<std::size_t>& starts, const std::vector<Chunk>& blocks, Surface<3>& surface) {
-  surface.face_edges =
-      FoundTable<FaceId, std::array<EdgeId, 3>>(VectorWrittenLater<std::array<EdgeId, 3>>(surface.faces.size()));
+  surface.face_edges = FoundTable<FaceId, std::array<EdgeId, 3>>(surface.faces.size());
   Parts<SurfaceEdge> parts(blocks.size());
   for_chunks(blocks, [&](Chunk chunk) { parts.put(chunk.number, edges_of(starts, chunk, surface)); });
   std::vector<std::size_t> before(parts.count() + 1, 0);
   for (std::size_t i = 0; i < parts.count(); ++i) before[i + 1] = before[i] + parts[i].size();
-  surface.edges = FoundTable<EdgeId, SurfaceEdge>(VectorWrittenLater<SurfaceEdge>(before.back()));
+  surface.edges = FoundTable<EdgeId, SurfaceEdge>(before.back());
   for_chunks(blocks, [&](Chunk chunk) {
     std::copy(parts[chunk.number].begin(), parts[chunk.number].end(),
               surface.edges.begin() + static_cast<std::ptrdiff_t>(before[chunk.number]));
@@ -184,9 +182,9 @@ template <int dim>
 Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
   Surface<dim> surface{mesh, std::move(faces), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
-  surface.normals = FoundTable<FaceId, Point<dim>>(VectorWrittenLater<Point<dim>>(count));
-  surface.areas = FoundTable<FaceId, double>(VectorWrittenLater<double>(count));
-  surface.lengths = FoundTable<FaceId, double>(VectorWrittenLater<double>(count));
+  surface.normals = FoundTable<FaceId, Point<dim>>(count);
+  surface.areas = FoundTable<FaceId, double>(count);
+  surface.lengths = FoundTable<FaceId, double>(count);
   for_chunks(count, [&](Chunk chunk) {
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, surface);
   });

@@ -1,8 +1,5 @@
 #include "contact/target_search.h"
 
-#include <memory>
-#include <utility>
-
 #include "contact/edge_search.h"
 #include "contact/near_edges.h"
 #include "contact/near_springs.h"
@@ -24,7 +21,7 @@ template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
   const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
   const std::size_t chunks = chunk_count(table.shells.size());
-  auto near_springs = std::make_unique<Parts<NearSprings>>(chunks);
+  Parts<NearSprings> near_springs(chunks);
   Parts<NearEdges> near(chunks);
   const auto indentation = static_cast<float>(options.indentation);
   visit_near<Near<dim>>(
@@ -37,10 +34,10 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
         }
       },
       [&](std::size_t chunk, const Near<dim>& found) {
-        near_springs->put(chunk, found.springs);
+        near_springs.put(chunk, found.springs);
         near.put(chunk, found.edges);
       });
-  Targets<dim> targets{find_spring_targets(surface, options, table, std::move(near_springs)), {}};
+  Targets<dim> targets{find_spring_targets(surface, options, table, near_springs), {}};
   if constexpr (dim == 3) targets.of_edges = find_edge_targets(surface, options, table, near, targets.of_springs.blocks);
   return targets;
 }

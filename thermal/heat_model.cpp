@@ -157,7 +157,7 @@ class BlockFlux {
   Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
     const auto at = [&](int corner) { return temperature[nodes[corner].value()]; };
     CornerValues<dim> values;
-    if (constant_) {
+    if (constant_) {  // by itself, so that no call in between keeps the values in memory
       for (int i = 0; i <= dim; ++i) values[i] = at(i);
       return of(values, nodes);
     }

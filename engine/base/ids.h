@@ -83,7 +83,8 @@ template <class IdType, class T, class Vector = std::vector<T>>
 class Table {
  public:
   Table() = default;
-  explicit Table(std::size_t size, const T& value = T{}) : data_(size, value) {}
+  explicit Table(std::size_t size) : data_(size) {}
+  Table(std::size_t size, const T& value) : data_(size, value) {}
   explicit Table(Vector data) : data_(std::move(data)) {}
 
   decltype(auto) operator[](IdType id) { return data_[id.index()]; }

@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
 
 #include "engine/base/huge_pages.h"
@@ -13,22 +12,10 @@ namespace scree {
 
 template <class Item>
 struct LargeAllocator : std::allocator<Item> {
-  template <class Other>
-  struct rebind {
-    using other = LargeAllocator<Other>;
-  };
-
-  LargeAllocator() = default;
-  template <class Other>
-  explicit LargeAllocator(const LargeAllocator<Other>&) noexcept {}
-
   Item* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(Item);
     if (bytes < worth_huge_pages) return std::allocator<Item>::allocate(count);
-    void* const memory = std::aligned_alloc(huge_page, (bytes + huge_page - 1) / huge_page * huge_page);
-    if (memory == nullptr) throw std::bad_alloc();
-    prefer_huge_pages(memory, bytes);
-    return static_cast<Item*>(memory);
+    return static_cast<Item*>(allocate_pages(bytes, huge_page));
   }
 
   void deallocate(Item* items, std::size_t count) {

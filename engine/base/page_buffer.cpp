@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include "engine/base/huge_pages.h"
 
@@ -19,9 +18,7 @@ char* PageBuffer::room(std::size_t count) {
     // Every write looks up the pages, whose number is then hundreds of times less.
     const std::size_t unit = wanted > huge_page / 2 ? huge_page : page;
     const std::size_t capacity = (wanted + unit - 1) / unit * unit;
-    std::unique_ptr<char, Free> larger(static_cast<char*>(std::aligned_alloc(unit, capacity)));
-    if (!larger) throw std::bad_alloc();
-    prefer_huge_pages(larger.get(), capacity, huge_page);
+    std::unique_ptr<char, Free> larger(static_cast<char*>(allocate_pages(capacity, unit)));
     if (size_ > 0) std::memcpy(larger.get(), bytes_.get(), size_);
     bytes_ = std::move(larger);
     capacity_ = capacity;

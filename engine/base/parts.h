@@ -23,6 +23,15 @@ class Parts {
     parts_[part] = place;
   }
 
+  // Gives its memory back; all parts are empty then.
+  void clear() {
+    std::fill(parts_.begin(), parts_.end(), std::span<const Item>());
+    pieces_.clear();
+    taken_ = used_ = 0;
+  }
+
+  [[nodiscard]] auto begin() const { return parts_.begin(); }
+  [[nodiscard]] auto end() const { return parts_.end(); }
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
   [[nodiscard]] std::span<const Item> operator[](std::size_t part) const { return parts_[part]; }
 

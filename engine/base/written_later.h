@@ -13,15 +13,6 @@ namespace scree {
 
 template <class Item>
 struct WrittenLater : LargeAllocator<Item> {
-  template <class Other>
-  struct rebind {
-    using other = WrittenLater<Other>;
-  };
-
-  WrittenLater() = default;
-  template <class Other>
-  explicit WrittenLater(const WrittenLater<Other>&) noexcept {}
-
   // Whoever asked for the element assigns to it before it is read.
   template <class Made>
   void construct(Made*) noexcept {

@@ -8,7 +8,7 @@
 namespace scree {
 namespace {
 
-// As many as make small pieces, a large one, and more than fit into one.
+// Of all sizes, together more than a large piece holds.
 std::vector<int> items_of(std::size_t part) {
   std::vector<int> items(part % 3 == 0 ? part : 10'000 * part);
   for (std::size_t i = 0; i < items.size(); ++i) items[i] = static_cast<int>(1'000'000 * part + i);
@@ -35,6 +35,15 @@ TEST(Parts, AreEmptyUntilTheyArePut) {
   const Parts<int> parts(2);
   EXPECT_EQ(parts.count(), 2u);
   EXPECT_TRUE(parts[1].empty());
+}
+
+TEST(Parts, AreEmptyAgainOnceCleared) {
+  Parts<int> parts(3);
+  parts.put(2, items_of(40));
+  parts.clear();
+  for (const auto& part : parts) EXPECT_TRUE(part.empty());
+  parts.put(1, items_of(5));
+  EXPECT_TRUE(holds(parts[1], items_of(5)));
 }
 
 TEST(LargeVector, BeginsWithAHugePageWhereItFillsSome) {
