@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
-#include <utility>
 
-#include "engine/base/huge_pages.h"
 #include "engine/base/late_library.h"
 #include "engine/base/phases.h"
+#include "engine/base/written_later.h"
+#include "thermal/supernodal_factor.h"
+#include "thermal/supernodal_solve.h"
 
 namespace scree::thermal {
 
@@ -27,56 +29,50 @@ float single(double value) {
 
 class Cholesky : public DirectFactor {
  public:
-  Cholesky() : Cholesky(made_by<CholeskyFactor>("scree_make_cholesky"), false) {}
-  Cholesky(std::unique_ptr<CholeskyFactor> factor, bool analysed) : factor_(std::move(factor)), analysed_(analysed) {}
-
   FactorSize analyse(const Matrix& matrix) override {
-    analysed_ = true;
-    return factor_->analyse(matrix);
+    size_ = analysis_->analyse(matrix);
+    return *size_;
   }
   void factorise(const Matrix& matrix) override {
-    if (!analysed_) analyse(matrix);
-    if (!solve_) make_room();
-    factor_->factorise(matrix);
+    if (!size_) analyse(matrix);
+    if (!factor_ && size_->possible) make_room(matrix);
+    sound_ = factor_ && factor_->factorise(matrix, values_.data());
     rough_is_new_ = false;
   }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return solve_.value().solve(values_, rhs); }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return solve_.value().solve(values_.data(), rhs); }
   Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) override {
     if (!rough_is_new_) round_values();
     return solve_.value().solve(rough_.data(), rhs);
   }
-  [[nodiscard]] std::unique_ptr<DirectFactor> another() const override {
-    std::unique_ptr<CholeskyFactor> factor(factor_->another());
-    if (!factor) return nullptr;
-    return std::make_unique<Cholesky>(std::move(factor), true);
-  }
-  [[nodiscard]] bool sound() const override { return factor_->sound(); }
+  [[nodiscard]] bool sound() const override { return sound_; }
 
  private:
-  void make_room() {
-    values_ = factor_->make_room();
-    if (values_ == nullptr) return;
-    solve_.emplace(factor_->pattern());
-    prefer_huge_pages(values_, solve_->entries() * sizeof(double));
+  // What there is no memory for is not factorised.
+  void make_room(const Matrix& matrix) {
+    const SupernodalPattern pattern = analysis_->pattern();
+    solve_.emplace(pattern);
+    try {
+      values_.resize(solve_->entries());
+    } catch (const std::bad_alloc&) {
+      return;
+    }
+    factor_.emplace(pattern, matrix, analysis_->kernels());
   }
   void round_values() {
-    const std::size_t count = solve_.value().entries();
-    if (rough_.size() == 0) {
-      rough_.resize(static_cast<Eigen::Index>(count));
-      prefer_huge_pages(rough_.data(), count * sizeof(float));
-    }
-    float* rough = rough_.data();
-    for_short_chunks(count, [&](Chunk chunk) {
-      for (std::size_t i = chunk.begin; i < chunk.end; ++i) rough[i] = single(values_[i]);
+    rough_.resize(values_.size());
+    for_short_chunks(values_.size(), [&](Chunk chunk) {
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) rough_[i] = single(values_[i]);
     });
     rough_is_new_ = true;
   }
 
-  std::unique_ptr<CholeskyFactor> factor_;
-  bool analysed_;
+  std::unique_ptr<CholeskyAnalysis> analysis_ = made_by<CholeskyAnalysis>("scree_make_cholesky");
+  std::optional<FactorSize> size_;
+  std::optional<SupernodalFactor> factor_;
   std::optional<SupernodalSolve> solve_;
-  double* values_ = nullptr;
-  Eigen::VectorXf rough_;  // the values in single precision, once they are asked for
+  VectorWrittenLater<double> values_;
+  VectorWrittenLater<float> rough_;  // the values in single precision, once they are asked for
+  bool sound_ = false;
   bool rough_is_new_ = false;
 };
 

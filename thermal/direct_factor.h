@@ -1,6 +1,6 @@
-// Factorisations of sparse matrices by CHOLMOD and UMFPACK, in a library of their own (libscree_factor.so) that is loaded by
-// the first of them: with BLAS and LAPACK behind it, it takes as long to load as a small run that needs none takes in all. What
-// CHOLMOD has factorised is solved with here (supernodal_solve.h).
+// Factorisations of sparse matrices. CHOLMOD, UMFPACK and BLAS stand in a library of their own (libscree_factor.so) that is
+// loaded by the first of them: it takes as long to load as a small run that needs none takes in all. CHOLMOD orders and
+// analyses; numbers are factorised and solved with here, on all threads (supernodal_factor.h, supernodal_solve.h).
 #pragma once
 
 #include <memory>
@@ -8,8 +8,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "thermal/dense_kernels.h"
 #include "thermal/solver_cost.h"
-#include "thermal/supernodal_solve.h"
+#include "thermal/supernodal_pattern.h"
 
 namespace scree::thermal {
 
@@ -30,31 +31,23 @@ class DirectFactor {
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   // The same by the factor's values rounded to single precision, if there are any: half as much to read.
   virtual Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) { return solve(rhs); }
-  // One more of the same analysis, which may factorise while this one does; none if that cannot be. Needs analyse().
-  [[nodiscard]] virtual std::unique_ptr<DirectFactor> another() const { return nullptr; }
   [[nodiscard]] virtual bool sound() const = 0;
 };
 
-// What CHOLMOD does of a Cholesky factorisation.
-class CholeskyFactor {
+// What CHOLMOD and BLAS do of a Cholesky factorisation: the symbolic part, and what is dense.
+class CholeskyAnalysis {
  public:
   using Matrix = DirectFactor::Matrix;
 
-  CholeskyFactor() = default;
-  virtual ~CholeskyFactor() = default;
-  CholeskyFactor(const CholeskyFactor&) = delete;
-  CholeskyFactor& operator=(const CholeskyFactor&) = delete;
+  CholeskyAnalysis() = default;
+  virtual ~CholeskyAnalysis() = default;
+  CholeskyAnalysis(const CholeskyAnalysis&) = delete;
+  CholeskyAnalysis& operator=(const CholeskyAnalysis&) = delete;
 
   virtual FactorSize analyse(const Matrix& matrix) = 0;
-  virtual void factorise(const Matrix& matrix) = 0;
-  [[nodiscard]] virtual bool sound() const = 0;
-  // After analyse(), unless there is no memory for it: where factorise() puts the values of the factor, for all matrices.
-  // Nothing has been written there yet.
-  virtual double* make_room() = 0;
-  // After make_room().
+  // After analyse(), if that was possible.
   [[nodiscard]] virtual SupernodalPattern pattern() const = 0;
-  // As DirectFactor::another(); before factorise().
-  [[nodiscard]] virtual CholeskyFactor* another() const = 0;
+  [[nodiscard]] virtual DenseKernels kernels() const = 0;
 };
 
 // Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.
@@ -65,5 +58,5 @@ std::unique_ptr<DirectFactor> make_lu();
 }  // namespace scree::thermal
 
 // What the library exports; the caller owns what they return.
-extern "C" scree::thermal::CholeskyFactor* scree_make_cholesky();
+extern "C" scree::thermal::CholeskyAnalysis* scree_make_cholesky();
 extern "C" scree::thermal::DirectFactor* scree_make_lu();

@@ -1,12 +1,20 @@
 #include <dlfcn.h>
-#include <omp.h>
-
-#include <memory>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
 
 #include "thermal/direct_factor.h"
+
+// BLAS and LAPACK, which have no header of their own in C++.
+extern "C" {
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*, double*,
+            const int*);
+void dpotrf_(const char*, const int*, double*, const int*, int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+}
 
 namespace scree::thermal {
 
@@ -27,36 +35,33 @@ bool blas_may_be_called_at_once() {
   return parallel == nullptr || parallel() != 0;
 }
 
-// CHOLMOD has loops of its own on four threads, however many are asked for, which spin on two processors and gain nothing.
-class OneOpenMpThread {
- public:
-  OneOpenMpThread() { omp_set_max_active_levels(0); }
-  ~OneOpenMpThread() { omp_set_max_active_levels(levels_); }
-  OneOpenMpThread(const OneOpenMpThread&) = delete;
-  OneOpenMpThread& operator=(const OneOpenMpThread&) = delete;
+void multiply(int rows, int columns, int inner, double alpha, const double* a, int a_ld, const double* b, int b_ld, double beta,
+              double* c, int c_ld) {
+  dgemm_("N", "T", &rows, &columns, &inner, &alpha, a, &a_ld, b, &b_ld, &beta, c, &c_ld);
+}
 
- private:
-  int levels_ = omp_get_max_active_levels();
-};
+void square(int rows, int inner, double alpha, const double* a, int a_ld, double beta, double* c, int c_ld) {
+  dsyrk_("L", "N", &rows, &inner, &alpha, a, &a_ld, &beta, c, &c_ld);
+}
+
+bool factorise(int rows, double* a, int ld) {
+  int failed = 0;
+  dpotrf_("L", &rows, a, &ld, &failed);
+  return failed == 0;
+}
+
+void divide(int rows, int columns, const double* l, int l_ld, double* b, int b_ld) {
+  constexpr double one = 1;
+  dtrsm_("R", "L", "T", "N", &rows, &columns, &one, l, &l_ld, b, &b_ld);
+}
 
 // Eigen's interface to CHOLMOD keeps the factor to itself and to what is made of it.
 class Supernodes : public Eigen::CholmodSupernodalLLT<DirectFactor::Matrix, Eigen::Lower> {
  public:
   [[nodiscard]] const cholmod_factor& factor() const { return *m_cholmodFactor; }
-  double* make_room() {
-    constexpr int yes = 1;  // L L^T, by supernodes, both of which it is by the analysis; packed and in order say nothing then
-    cholmod_change_factor(CHOLMOD_REAL, yes, yes, yes, yes, m_cholmodFactor, &cholmod());
-    return static_cast<double*>(m_cholmodFactor->x);
-  }
-  void take_analysis(const Supernodes& other) {
-    m_cholmodFactor = cholmod_copy_factor(other.m_cholmodFactor, &cholmod());
-    m_isInitialized = m_cholmodFactor != nullptr;
-    m_analysisIsOk = m_isInitialized;
-    m_info = m_isInitialized ? Eigen::Success : Eigen::NumericalIssue;
-  }
 };
 
-class Cholmod : public CholeskyFactor {
+class Cholmod : public CholeskyAnalysis {
  public:
   Cholmod() {
     use_one_blas_thread();
@@ -67,12 +72,6 @@ class Cholmod : public CholeskyFactor {
     if (cholesky_.cholmod().status != CHOLMOD_OK) return {.possible = false};
     return {static_cast<double>(cholesky_.factor().xsize), cholesky_.cholmod().fl, true};
   }
-  void factorise(const Matrix& matrix) override {
-    const OneOpenMpThread alone;
-    cholesky_.factorize(matrix);
-  }
-  [[nodiscard]] bool sound() const override { return cholesky_.info() == Eigen::Success; }
-  double* make_room() override { return cholesky_.make_room(); }
   [[nodiscard]] SupernodalPattern pattern() const override {
     const cholmod_factor& factor = cholesky_.factor();
     const auto integers = [](const void* array) { return static_cast<const int*>(array); };
@@ -81,11 +80,8 @@ class Cholmod : public CholeskyFactor {
             integers(factor.s),         integers(factor.px),
             integers(factor.Perm)};
   }
-  [[nodiscard]] CholeskyFactor* another() const override {
-    if (!blas_may_be_called_at_once()) return nullptr;
-    auto copy = std::make_unique<Cholmod>();
-    copy->cholesky_.take_analysis(cholesky_);
-    return copy->sound() ? copy.release() : nullptr;
+  [[nodiscard]] DenseKernels kernels() const override {
+    return {multiply, square, thermal::factorise, divide, blas_may_be_called_at_once()};
   }
 
  private:
@@ -118,7 +114,7 @@ class Lu : public DirectFactor {
 
 }  // namespace scree::thermal
 
-scree::thermal::CholeskyFactor* scree_make_cholesky() {
+scree::thermal::CholeskyAnalysis* scree_make_cholesky() {
   return new scree::thermal::Cholmod;
 }
 

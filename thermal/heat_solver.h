@@ -1,13 +1,12 @@
 // Solves (C + s J) x = b for the free nodes, by a factorisation or by multigrid, whichever is asked for or costs less.
 //
-// J = K + diag(loss) is symmetric: supernodal Cholesky (CHOLMOD), one symbolic analysis and a numeric factorisation per matrix,
+// J = K + diag(loss) is symmetric: supernodal Cholesky, one symbolic analysis (CHOLMOD) and a numeric factorisation per matrix,
 // or conjugate gradients with algebraic multigrid. With a conductivity that depends on temperature, J = K + U diag(k) +
 // diag(loss) is not: LU of the same pattern (UMFPACK).
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "thermal/direct_factor.h"
@@ -23,9 +22,8 @@ class HeatSolver {
   // Refers to both. Throws InputError if multigrid is asked for and cannot do it.
   HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use);
 
-  // Prepares for C + scale J [J/K]; scale in seconds. On two threads and more the matrix of the scale expected next, if any, is
-  // factorised at the same time. Throws RunError if it cannot be done.
-  void prepare(const Linearised& at, double scale, std::optional<double> expected = {});
+  // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if it cannot be done.
+  void prepare(const Linearised& at, double scale);
 
   // For J alone [W/K].
   void prepare_steady(const Linearised& at);
@@ -51,29 +49,23 @@ class HeatSolver {
     Eigen::VectorXd diagonal;
     double scale = 0;
   };
-  struct Ready {
-    Purpose purpose;
-    std::unique_ptr<DirectFactor> factor;
-    bool rough_will_do = false;  // whether single precision is enough for estimates
-  };
 
   void choose(const HeatModel& model, LinearSolver asked, const SolverUse& use);
   void take_multigrid(const HeatModel& model);
-  [[nodiscard]] Purpose purpose(const Linearised& at, double scale) const;
   [[nodiscard]] SparseMatrix matrix_of(const Purpose& purpose, const Linearised& at) const;
-  [[nodiscard]] bool fits(const Ready& ready, const Purpose& purpose) const;
-  void make_ready(const Linearised& at, Purpose wanted, std::optional<Purpose> expected);
-  void factorise(Ready& ready, const Linearised& at, Purpose purpose) const;
+  [[nodiscard]] bool is_ready_for(const Purpose& purpose) const;
+  void make_ready(const Linearised& at, Purpose wanted);
+  void factorise(const Linearised& at, const Purpose& purpose);
   [[nodiscard]] Eigen::MatrixXd iterate(const Eigen::MatrixXd& rhs, double accuracy) const;
   [[nodiscard]] Eigen::MatrixXd checked(Eigen::MatrixXd solution) const;
 
   const FreeNodes& free_;
   SparseMatrix conductance_;              // of the free nodes, for a factor: the lower triangle, or all of it beside U
   SparseMatrix unit_conductance_;         // all of U's
-  Ready ready_;                           // this
+  std::unique_ptr<DirectFactor> factor_;  // this
   std::unique_ptr<Multigrid> multigrid_;  // or that
-  Ready beside_;                          // the factor of the matrix before or of the one expected next, if there is room
-  bool room_beside_ = false;
+  Purpose ready_for_;
+  bool rough_will_do_ = false;  // whether single precision is enough for estimates
   SolverCost cost_;
   std::int64_t factorisations_ = 0;
 };

@@ -29,8 +29,7 @@ class LinearScheme : public TimeScheme {
         free_(model),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
         capacity_(free_.gather(linear_.capacity)),
-        solver_(model, free_, solver, use),
-        longest_step_(use.longest_step) {}
+        solver_(model, free_, solver, use) {}
 
   Step step(const Instant& from, double length) override {
     if (length != prepared_) prepare(length);
@@ -91,8 +90,7 @@ class LinearScheme : public TimeScheme {
 
  private:
   void prepare(double length) {
-    const double longer = 2 * length;  // what steps grow to, if they may
-    solver_.prepare(linear_, gamma * length, longer <= longest_step_ ? std::optional(gamma * longer) : std::nullopt);
+    solver_.prepare(linear_, gamma * length);
     const Eigen::VectorXd conductance = free_.gather(model_.conductance.diagonal() + linear_.loss);
     stiff_ = free_.size() > 0 && gamma * length * conductance.cwiseQuotient(capacity_).maxCoeff() > stiffness_of_refinement;
     prepared_ = length;
@@ -153,7 +151,6 @@ class LinearScheme : public TimeScheme {
   Linearised linear_;         // the same at all times
   Eigen::VectorXd capacity_;  // of the free nodes [J/K]
   HeatSolver solver_;
-  double longest_step_;  // [s]
   double prepared_ = 0;  // the step the solver is prepared for [s]
   double whole_ = 0;     // the sum of all entries of M [J/K]
   bool stiff_ = false;   // whether solutions are refined

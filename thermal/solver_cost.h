@@ -12,7 +12,6 @@ namespace scree::thermal {
 struct SolverUse {
   double matrices = 12;
   double solves = 500;
-  double longest_step = 0;  // that steps may grow to, if that is known [s]
 };
 inline constexpr SolverUse use_of_steady_state{1, 2};
 

@@ -30,7 +30,6 @@ StepForecast forecast_steps(double stable, const TimeOptions& options) {
   // A stabilised step h takes 2 sqrt(h/stable) products; those that grow make a geometric series.
   const double products_of_longest = 2 * std::sqrt(every / stable);
   forecast.products = products_of_longest * (std::sqrt(growth) / (1 - std::exp(-growth / 2)) + later);
-  forecast.longest = every;
   return forecast;
 }
 
@@ -51,7 +50,7 @@ double WorkDone::work(double time) const {
 }
 
 SolverUse use_of_linear_steps(const StepForecast& forecast) {
-  return {forecast.lengths, 4 * forecast.steps, forecast.longest};
+  return {forecast.lengths, 4 * forecast.steps};
 }
 
 SolverUse use_of_newton_steps(const StepForecast& forecast) {

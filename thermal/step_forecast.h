@@ -10,7 +10,6 @@ struct StepForecast {
   double steps = 0;
   double lengths = 0;   // that differ: each is a matrix of its own for implicit steps
   double products = 0;  // with K, of stabilised explicit steps
-  double longest = 0;   // step [s]
 };
 
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.

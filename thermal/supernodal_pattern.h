@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "thermal/supernode_kernels.h"
 
@@ -20,9 +21,17 @@ struct SupernodalPattern {
   const int* permutation = nullptr;
 
   [[nodiscard]] int rows_of(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
+  [[nodiscard]] int columns_of(int s) const { return first[s + 1] - first[s]; }
+  [[nodiscard]] int row(int s, int i) const { return rows[rows_begin[s] + i]; }
+  // Which supernode each column is in.
+  [[nodiscard]] std::vector<int> holders() const {
+    std::vector<int> holders(unknowns);
+    for (int s = 0; s < supernodes; ++s) std::fill(holders.begin() + first[s], holders.begin() + first[s + 1], s);
+    return holders;
+  }
   template <class Value>
   [[nodiscard]] Supernode<Value> supernode(const Value* values, int s) const {
-    return {values + values_begin[s], rows_of(s), first[s + 1] - first[s]};
+    return {values + values_begin[s], rows_of(s), columns_of(s)};
   }
 
   // Values of rows stand in x[sides * row + side], in w as the kernels want them.
@@ -38,15 +47,13 @@ struct SupernodalPattern {
   // Into x: those of the columns take the place of what is there, those after them, to before `count`, are added to it.
   template <int sides>
   void store(int s, int count, const double* w, double* x) const {
-    const int columns = first[s + 1] - first[s];
+    const int columns = columns_of(s);
     for (int c = 0; c < sides; ++c) {
       const double* side = w + c * rows_of(s);
       for (int i = 0; i < columns; ++i) x[sides * row(s, i) + c] = side[i];
       for (int i = columns; i < count; ++i) x[sides * row(s, i) + c] += side[i];
     }
   }
-
-  [[nodiscard]] int row(int s, int i) const { return rows[rows_begin[s] + i]; }
 };
 
 }  // namespace scree::thermal

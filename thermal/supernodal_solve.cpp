@@ -1,38 +1,24 @@
 #include "thermal/supernodal_solve.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/base/phases.h"
+#include "engine/base/written_later.h"
 
 namespace scree::thermal {
 
 namespace {
 
 // Trees are cut until each holds at most this part of the factor. What is above them is shared less well.
-constexpr std::int64_t parts = 4;
+constexpr int parts = 4;
 // Factors with fewer entries are done before a second thread has woken up.
 constexpr std::int64_t entries_worth_sharing = 200'000;
 
-// -1: a root.
-std::vector<int> parents_of(const SupernodalPattern& pattern) {
-  std::vector<int> holder(pattern.unknowns);  // the supernode of each column
-  for (int s = 0; s < pattern.supernodes; ++s) {
-    std::fill(holder.begin() + pattern.first[s], holder.begin() + pattern.first[s + 1], s);
-  }
-  std::vector<int> parents(pattern.supernodes, -1);
-  for (int s = 0; s < pattern.supernodes; ++s) {
-    const int columns = pattern.first[s + 1] - pattern.first[s];
-    if (pattern.rows_of(s) > columns) parents[s] = holder[pattern.rows[pattern.rows_begin[s] + columns]];
-  }
-  return parents;
-}
-
-// Of the tree below each supernode, itself included. Parents come after what is below them.
-std::vector<std::int64_t> entries_below(const SupernodalPattern& pattern, const std::vector<int>& parents) {
+std::vector<std::int64_t> entries_of(const SupernodalPattern& pattern) {
   std::vector<std::int64_t> entries(pattern.supernodes);
   for (int s = 0; s < pattern.supernodes; ++s) {
-    entries[s] += static_cast<std::int64_t>(pattern.rows_of(s)) * (pattern.first[s + 1] - pattern.first[s]);
-    if (parents[s] >= 0) entries[parents[s]] += entries[s];
+    entries[s] = static_cast<std::int64_t>(pattern.rows_of(s)) * pattern.columns_of(s);
   }
   return entries;
 }
@@ -40,40 +26,16 @@ std::vector<std::int64_t> entries_below(const SupernodalPattern& pattern, const 
 }  // namespace
 
 SupernodalSolve::SupernodalSolve(const SupernodalPattern& pattern) : pattern_(pattern) {
-  const std::vector<int> parents = parents_of(pattern);
-  cut(parents, entries_below(pattern, parents));
-}
-
-void SupernodalSolve::cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries) {
-  const int count = pattern_.supernodes;
-  std::int64_t all = 0;
-  for (int s = 0; s < count; ++s) all += parents[s] < 0 ? entries[s] : 0;
-  const std::int64_t largest = std::max(all / parts, entries_worth_sharing);
-
-  // Which task a supernode belongs to: parents first.
-  constexpr int in_top = -1;
-  std::vector<int> task(count, in_top);
-  for (int s = count - 1; s >= 0; --s) {
-    const int above = parents[s] < 0 ? in_top : task[parents[s]];
-    if (above != in_top) {
-      task[s] = above;
-    } else if (entries[s] <= largest) {
-      // Small trees go together.
-      if (tasks_.empty() || tasks_.back().entries + entries[s] > largest) tasks_.emplace_back();
-      tasks_.back().entries += entries[s];
-      task[s] = static_cast<int>(tasks_.size()) - 1;
-    }
-  }
-  std::vector<int> top;
-  for (int s = 0; s < count; ++s) (task[s] == in_top ? top : tasks_[task[s]].supernodes).push_back(s);
-  std::stable_sort(tasks_.begin(), tasks_.end(), [](const Task& a, const Task& b) { return a.entries > b.entries; });
-  top_.set(pattern_, top);
-  // Up the trees, where they meet, the top, down the trees.
-  const auto trees = static_cast<int>(tasks_.size());
-  sizes_ = {trees, 1};
+  CutForest forest = cut_forest(pattern, entries_of(pattern), parts, entries_worth_sharing);
+  trees_ = std::move(forest.trees);
+  top_.set(pattern_, forest.top);
+  // The right sides, up the trees, where they meet, the top, down the trees, the solution.
+  const auto trees = static_cast<int>(trees_.size());
+  const auto pieces = static_cast<int>(chunk_count(pattern.unknowns));
+  sizes_ = {pieces, trees, 1};
   sizes_.insert(sizes_.end(), top_.sizes().begin(), top_.sizes().end());
-  sizes_.push_back(trees);
-  find_rows_above(top);
+  sizes_.insert(sizes_.end(), {trees, pieces});
+  find_rows_above(forest.top);
 }
 
 void SupernodalSolve::find_rows_above(const std::vector<int>& top) {
@@ -94,9 +56,9 @@ void SupernodalSolve::find_rows_above(const std::vector<int>& top) {
 }
 
 template <int sides, class Value>
-void SupernodalSolve::forward(const Task& task, const Value* values, double* x, double* above) const {
+void SupernodalSolve::forward(const Tree& tree, const Value* values, double* x, double* above) const {
   std::vector<double> w(sides * most_rows_);
-  for (const int s : task.supernodes) {
+  for (const int s : tree.supernodes) {
     const Supernode<Value> node = pattern_.supernode(values, s);
     pattern_.load<sides>(s, node.columns, x, w.data());
     thermal::forward<sides>(node, {0, node.columns}, node.rows, w.data());
@@ -109,9 +71,9 @@ void SupernodalSolve::forward(const Task& task, const Value* values, double* x, 
 }
 
 template <int sides, class Value>
-void SupernodalSolve::backward(const Task& task, const Value* values, double* x) const {
+void SupernodalSolve::backward(const Tree& tree, const Value* values, double* x) const {
   std::vector<double> w(sides * most_rows_);
-  for (auto s = task.supernodes.rbegin(); s != task.supernodes.rend(); ++s) {
+  for (auto s = tree.supernodes.rbegin(); s != tree.supernodes.rend(); ++s) {
     const Supernode<Value> node = pattern_.supernode(values, *s);
     pattern_.load<sides>(*s, node.rows, x, w.data());
     thermal::backward<sides>(node, {0, node.columns}, node.rows, w.data());
@@ -122,12 +84,19 @@ void SupernodalSolve::backward(const Task& task, const Value* values, double* x)
 template <int sides, class Value>
 void SupernodalSolve::solve(const Value* values, const double* rhs, double* solution) const {
   const int n = pattern_.unknowns;
-  std::vector<double> x(static_cast<std::size_t>(sides) * n);
-  for (int c = 0; c < sides; ++c) {
-    for (int i = 0; i < n; ++i) x[sides * i + c] = rhs[static_cast<std::ptrdiff_t>(c) * n + pattern_.permutation[i]];
-  }
-  std::vector<std::vector<double>> above(tasks_.size());
+  VectorWrittenLater<double> x(static_cast<std::size_t>(sides) * n);
+  std::vector<std::vector<double>> above(trees_.size());
   TopSupernodes::Space space = top_.space<sides>();
+  const auto for_piece = [n](int piece, const auto& visit) {
+    const int end = std::min(n, (piece + 1) * static_cast<int>(chunk_size));
+    for (int i = piece * static_cast<int>(chunk_size); i < end; ++i) visit(i);
+  };
+  const auto take = [&](int i) {
+    for (int c = 0; c < sides; ++c) x[sides * i + c] = rhs[static_cast<std::ptrdiff_t>(c) * n + pattern_.permutation[i]];
+  };
+  const auto give = [&](int i) {
+    for (int c = 0; c < sides; ++c) solution[static_cast<std::ptrdiff_t>(c) * n + pattern_.permutation[i]] = x[sides * i + c];
+  };
   const auto meet = [&] {
     for (const auto& part : above) {
       for (std::size_t i = 0; i < top_rows_.size(); ++i) {
@@ -135,22 +104,24 @@ void SupernodalSolve::solve(const Value* values, const double* rhs, double* solu
       }
     }
   };
+  const auto last = static_cast<int>(sizes_.size()) - 1;
   const auto work = [&](int phase, int task) {
     if (phase == 0) {
-      above[task].assign(sides * top_rows_.size(), 0.0);
-      forward<sides>(tasks_[task], values, x.data(), above[task].data());
+      for_piece(task, take);
     } else if (phase == 1) {
+      above[task].assign(sides * top_rows_.size(), 0.0);
+      forward<sides>(trees_[task], values, x.data(), above[task].data());
+    } else if (phase == 2) {
       meet();
-    } else if (phase + 1 < static_cast<int>(sizes_.size())) {
-      top_.run<sides>(phase - 2, task, values, x.data(), space);
+    } else if (phase + 1 < last) {
+      top_.run<sides>(phase - 3, task, values, x.data(), space);
+    } else if (phase < last) {
+      backward<sides>(trees_[task], values, x.data());
     } else {
-      backward<sides>(tasks_[task], values, x.data());
+      for_piece(task, give);
     }
   };
   run_phases(sizes_, 1, work);
-  for (int c = 0; c < sides; ++c) {
-    for (int i = 0; i < n; ++i) solution[static_cast<std::ptrdiff_t>(c) * n + pattern_.permutation[i]] = x[sides * i + c];
-  }
 }
 
 template <class Value>

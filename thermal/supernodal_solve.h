@@ -2,10 +2,9 @@
 // double or in single precision, come with the right sides. CHOLMOD's own solve goes through L twice on one of them,
 // and in runs of hundreds of steps with a dozen matrices that is where the time goes.
 //
-// A supernode is a run of columns of L with the same rows, and its parent the one that holds the first of its rows below them.
-// Different subtrees of that forest have nothing to do with each other until they meet: they are solved at once, and what they
-// give to the rows above is added in their order. How the forest is cut depends on the pattern alone, so any number of threads
-// gives the same bits.
+// A supernode is a run of columns of L with the same rows. Trees of their forest (supernode_forest.h) are solved at once, and
+// what they give to the rows above is added in their order. How the forest is cut depends on the pattern alone, so any number
+// of threads gives the same bits.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include "thermal/supernode_forest.h"
 #include "thermal/top_supernodes.h"
 
 namespace scree::thermal {
@@ -31,21 +31,17 @@ class SupernodalSolve {
   [[nodiscard]] std::size_t entries() const { return static_cast<std::size_t>(pattern_.values_begin[pattern_.supernodes]); }
 
  private:
-  struct Task {
-    std::vector<int> supernodes;  // ascending: each after those below it
-    std::int64_t entries = 0;
-  };
-  void cut(const std::vector<int>& parents, const std::vector<std::int64_t>& entries);
+  using Tree = CutForest::Tree;
   void find_rows_above(const std::vector<int>& top);
   template <int sides, class Value>
   void solve(const Value* values, const double* rhs, double* solution) const;
   template <int sides, class Value>
-  void forward(const Task& task, const Value* values, double* x, double* above) const;
+  void forward(const Tree& tree, const Value* values, double* x, double* above) const;
   template <int sides, class Value>
-  void backward(const Task& task, const Value* values, double* x) const;
+  void backward(const Tree& tree, const Value* values, double* x) const;
 
   SupernodalPattern pattern_;
-  std::vector<Task> tasks_;      // trees that are solved at once, the largest first
+  std::vector<Tree> trees_;      // solved at once
   TopSupernodes top_;            // what is above them
   std::vector<int> rows_below_;  // of each supernode, how many of its rows are not in the top
   std::vector<int> top_rows_;    // the rows of the top

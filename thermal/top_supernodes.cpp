@@ -16,7 +16,7 @@ constexpr int rows_in_piece = 192;
 void TopSupernodes::set(const SupernodalPattern& pattern, const std::vector<int>& supernodes) {
   pattern_ = pattern;
   for (const int s : supernodes) {
-    const int rows = pattern.rows_of(s), columns = pattern.first[s + 1] - pattern.first[s];
+    const int rows = pattern.rows_of(s), columns = pattern.columns_of(s);
     most_rows_ = std::max(most_rows_, rows);
     for (int begin = 0; begin < columns; begin += columns_in_block) {
       const int end = std::min(columns, begin + columns_in_block);
