@@ -18,8 +18,11 @@ namespace {
 // Trees are cut until each takes at most this part of the work. What is above them is shared less well.
 constexpr int parts = 16;
 constexpr std::int64_t flops_worth_sharing = 2'000'000;
-constexpr int columns_in_block = 192;
-constexpr int rows_in_piece = 384;
+
+// Of a supernode above the trees: large ones gain by large blocks, small ones by having more of them to share.
+int columns_in_block(int rows) {
+  return std::clamp(rows / 8, 192, 512);
+}
 
 std::int64_t product(std::int64_t a, std::int64_t b, std::int64_t c) {
   return a * b * c;
@@ -132,10 +135,11 @@ void SupernodalFactor::cut() {
   forest_ = cut_forest(pattern_, flops(), parts, flops_worth_sharing);
   sizes_ = {static_cast<int>(forest_.trees.size() + forest_.top.size())};
   for (const int s : forest_.top) {
-    const int rows = pattern_.rows_of(s), columns = pattern_.columns_of(s);
-    for (int begin = 0; begin < columns; begin += columns_in_block) {
-      const int end = std::min(columns, begin + columns_in_block);
-      blocks_.push_back({s, {begin, end}});
+    const int rows = pattern_.rows_of(s), columns = pattern_.columns_of(s), wide = columns_in_block(rows);
+    const int rows_in_piece = 2 * wide;
+    for (int begin = 0; begin < columns; begin += wide) {
+      const int end = std::min(columns, begin + wide);
+      blocks_.push_back({s, {begin, end}, rows_in_piece});
       const int pieces = (rows - end + rows_in_piece - 1) / rows_in_piece;
       sizes_.insert(sizes_.end(), {1 + pieces, 1, pieces});
     }
@@ -166,8 +170,8 @@ void SupernodalFactor::run(int phase, int task, const double* matrix, double* va
   const auto trees = static_cast<int>(forest_.trees.size());
   if (phase == 0 && task < trees) {
     for (const int s : forest_.trees[task].supernodes) {
-      const Block whole{s, {0, pattern_.columns_of(s)}};
       const Span below{pattern_.columns_of(s), pattern_.rows_of(s)};
+      const Block whole{s, {0, below.begin}, below.end};
       assemble(s, matrix, values);
       gather_corner(whole, values, *space);
       gather_rows(whole, below, values, *space);
@@ -197,8 +201,8 @@ void SupernodalFactor::run(int phase, int task, const double* matrix, double* va
 }
 
 Span SupernodalFactor::rows_of_piece(const Block& block, int piece) const {
-  const int begin = block.columns.end + piece * rows_in_piece;
-  return {begin, std::min(pattern_.rows_of(block.supernode), begin + rows_in_piece)};
+  const int begin = block.columns.end + piece * block.rows_in_piece;
+  return {begin, std::min(pattern_.rows_of(block.supernode), begin + block.rows_in_piece)};
 }
 
 void SupernodalFactor::assemble(int s, const double* matrix, double* values) const {

@@ -45,6 +45,7 @@ class SupernodalFactor {
   struct Block {
     int supernode;
     Span columns;
+    int rows_in_piece;  // of those below them
   };
   // Columns of L, by supernode or block, that change those of a block: their rows from `begin` to before `end`.
   struct Source {

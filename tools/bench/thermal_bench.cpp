@@ -113,12 +113,14 @@ struct Equations {
 };
 
 void new_matrix(benchmark::State& state, thermal::LinearSolver kind) {
+  use_threads(static_cast<int>(state.range(1)));
   Equations equations(state.range(0), kind);
   double step = 100;
   for (auto _ : state) equations.solver->prepare(equations.linear, step *= 1.01);
 }
 
 void solve(benchmark::State& state, thermal::LinearSolver kind) {
+  use_threads(static_cast<int>(state.range(1)));
   Equations equations(state.range(0), kind);
   equations.solver->prepare(equations.linear, 100);
   const Eigen::MatrixXd heat = Eigen::MatrixXd::Random(equations.free.size(), 1);
@@ -139,25 +141,24 @@ void frame(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 
-void threads(benchmark::internal::Benchmark* bench) {
+// Of so many cells along an edge.
+template <int most_threads, int... cells>
+void sizes(benchmark::internal::Benchmark* bench) {
   bench->ArgNames({"cells", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
-  for (const int cells : {31, 74}) {
-    for (const int count : {1, 2}) bench->Args({cells, count});
+  for (const int count : {cells...}) {
+    for (int threads = 1; threads <= most_threads; ++threads) bench->Args({count, threads});
   }
 }
 
 BENCHMARK(triad)->Unit(benchmark::kMillisecond)->UseRealTime()->Arg(1)->Arg(2);
-BENCHMARK_CAPTURE(product, unlike_cells, Grid::shaken)->Apply(threads);
-BENCHMARK_CAPTURE(product, equal_cells, Grid::even)->Apply(threads);
-BENCHMARK_CAPTURE(assembly, unlike_cells, Grid::shaken)->Apply(threads);
-BENCHMARK_CAPTURE(assembly, equal_cells, Grid::even)->Apply(threads);
-void sizes(benchmark::internal::Benchmark* bench) {
-  bench->ArgName("cells")->Unit(benchmark::kMillisecond)->Arg(15)->Arg(31)->Arg(47)->Arg(63);
-}
-BENCHMARK_CAPTURE(new_matrix, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes);
-BENCHMARK_CAPTURE(new_matrix, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes);
-BENCHMARK_CAPTURE(solve, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes);
-BENCHMARK_CAPTURE(solve, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes);
+BENCHMARK_CAPTURE(product, unlike_cells, Grid::shaken)->Apply(sizes<2, 31, 74>);
+BENCHMARK_CAPTURE(product, equal_cells, Grid::even)->Apply(sizes<2, 31, 74>);
+BENCHMARK_CAPTURE(assembly, unlike_cells, Grid::shaken)->Apply(sizes<2, 31, 74>);
+BENCHMARK_CAPTURE(assembly, equal_cells, Grid::even)->Apply(sizes<2, 31, 74>);
+BENCHMARK_CAPTURE(new_matrix, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes<2, 15, 31, 47, 63>);
+BENCHMARK_CAPTURE(new_matrix, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes<1, 15, 31, 47, 63>);
+BENCHMARK_CAPTURE(solve, cholesky, thermal::LinearSolver::cholesky)->Apply(sizes<2, 15, 31, 47, 63>);
+BENCHMARK_CAPTURE(solve, multigrid, thermal::LinearSolver::multigrid)->Apply(sizes<1, 15, 31, 47, 63>);
 BENCHMARK(frame)->Unit(benchmark::kMillisecond)->Arg(31)->Arg(74);
 
 }  // namespace
