@@ -141,7 +141,7 @@ Eigen::MatrixXd HeatSolver::checked(Eigen::MatrixXd solution) const {
 
 std::string HeatSolver::name() const {
   if (multigrid_) return "conjugate gradients with algebraic multigrid (hypre BoomerAMG)";
-  return unit_conductance_.nonZeros() > 0 ? "UMFPACK LU" : "CHOLMOD supernodal Cholesky";
+  return unit_conductance_.nonZeros() > 0 ? "UMFPACK LU" : "supernodal Cholesky in the order of CHOLMOD";
 }
 
 }  // namespace scree::thermal

@@ -9,7 +9,7 @@ namespace scree::thermal {
 namespace {
 
 // Measured on two cores (README, "Which steps"): only their ratios matter.
-constexpr double seconds_per_flop = 4e-11;     // of a supernodal factorisation, which takes one
+constexpr double seconds_per_flop = 2.5e-11;   // of a supernodal factorisation
 constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
 constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
 constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
