@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include "engine/base/check.h"
@@ -35,12 +34,12 @@ bool no_gaps(std::span<const int> numbers) {
 
 }  // namespace
 
-// One space for each thread at work.
-class SupernodalFactor::Spaces {
+// One factorisation: what it reads and writes, whether all was well so far, and a space for each thread at work.
+class SupernodalFactor::Work {
  public:
-  explicit Spaces(std::size_t unknowns) : unknowns_(unknowns) {}
+  Work(const double* from, double* to, std::size_t unknowns) : matrix(from), values(to), unknowns_(unknowns) {}
 
-  std::unique_ptr<Space> take() {
+  std::unique_ptr<Space> take_space() {
     const std::lock_guard lock(turn_);
     if (free_.empty()) return std::make_unique<Space>(Space{std::vector<int>(unknowns_), {}, {}});
     std::unique_ptr<Space> space = std::move(free_.back());
@@ -52,6 +51,8 @@ class SupernodalFactor::Spaces {
     free_.push_back(std::move(space));
   }
 
+  const double* const matrix;
+  double* const values;
   std::atomic<bool> sound = true;
 
  private:
@@ -61,15 +62,20 @@ class SupernodalFactor::Spaces {
 };
 
 SupernodalFactor::SupernodalFactor(const SupernodalPattern& pattern, const Matrix& lower, const DenseKernels& kernels)
-    : pattern_(pattern), kernels_(kernels) {
-  find_updates();
-  find_entries(lower);
+    : SupernodalFactor(pattern, lower, kernels, pattern.holders()) {}
+
+SupernodalFactor::SupernodalFactor(const SupernodalPattern& pattern, const Matrix& lower, const DenseKernels& kernels,
+                                   const std::vector<int>& holder)
+    : pattern_(pattern),
+      kernels_(kernels),
+      updates_(find_updates(holder)),
+      entries_(find_entries(holder, lower)),
+      matrix_size_(lower.nonZeros()) {
   cut();
 }
 
-void SupernodalFactor::find_updates() {
-  const std::vector<int> holder = pattern_.holders();
-  const auto for_each_update = [&](const auto& visit) {
+auto SupernodalFactor::find_updates(const std::vector<int>& holder) const -> PiecesOfRows<Update> {
+  return PiecesOfRows<Update>(pattern_.supernodes, [&](const auto& visit) {
     for (int s = 0; s < pattern_.supernodes; ++s) {
       const int rows = pattern_.rows_of(s);
       for (int begin = pattern_.columns_of(s); begin < rows;) {
@@ -80,38 +86,25 @@ void SupernodalFactor::find_updates() {
         begin = end;
       }
     }
-  };
-  updates_begin_.assign(pattern_.supernodes + 1, 0);
-  for_each_update([&](int target, const Update&) { ++updates_begin_[target + 1]; });
-  std::partial_sum(updates_begin_.begin(), updates_begin_.end(), updates_begin_.begin());
-  updates_.resize(updates_begin_.back());
-  std::vector<std::size_t> next(updates_begin_.begin(), updates_begin_.end() - 1);
-  for_each_update([&](int target, const Update& update) { updates_[next[target]++] = update; });
+  });
 }
 
-void SupernodalFactor::find_entries(const Matrix& lower) {
-  const std::vector<int> holder = pattern_.holders();
+auto SupernodalFactor::find_entries(const std::vector<int>& holder, const Matrix& lower) const -> PiecesOfRows<Entry> {
   std::vector<int> position(pattern_.unknowns);
   for (int i = 0; i < pattern_.unknowns; ++i) position[pattern_.permutation[i]] = i;
-  const auto for_each_entry = [&](const auto& visit) {
+  const auto place_of = [&](int s, int column, int row) {
+    const int* rows = pattern_.rows + pattern_.rows_begin[s];
+    const auto place = static_cast<int>(std::lower_bound(rows, rows + pattern_.rows_of(s), row) - rows);
+    return pattern_.values_begin[s] + (column - pattern_.first[s]) * pattern_.rows_of(s) + place;
+  };
+  return PiecesOfRows<Entry>(pattern_.supernodes, [&](const auto& visit) {
     int number = 0;
     for (int column = 0; column < lower.outerSize(); ++column) {
       for (Matrix::InnerIterator entry(lower, column); entry; ++entry, ++number) {
         const auto [c, r] = std::minmax(position[entry.row()], position[column]);
-        visit(holder[c], c, r, number);
+        visit(holder[c], Entry{place_of(holder[c], c, r), number});
       }
     }
-  };
-  entries_begin_.assign(pattern_.supernodes + 1, 0);
-  for_each_entry([&](int s, int, int, int) { ++entries_begin_[s + 1]; });
-  std::partial_sum(entries_begin_.begin(), entries_begin_.end(), entries_begin_.begin());
-  entries_.resize(entries_begin_.back());
-  std::vector<std::size_t> next(entries_begin_.begin(), entries_begin_.end() - 1);
-  for_each_entry([&](int s, int column, int row, int number) {
-    const int* rows = pattern_.rows + pattern_.rows_begin[s];
-    const auto place = static_cast<int>(std::lower_bound(rows, rows + pattern_.rows_of(s), row) - rows);
-    const int before = (column - pattern_.first[s]) * pattern_.rows_of(s);
-    entries_[next[s]++] = {pattern_.values_begin[s] + before + place, number};
   });
 }
 
@@ -121,7 +114,7 @@ std::vector<std::int64_t> SupernodalFactor::flops() const {
   for (int s = 0; s < pattern_.supernodes; ++s) {
     const int columns = pattern_.columns_of(s);
     flops[s] = product(columns, columns, pattern_.rows_of(s));
-    for (const Update& update : updates_of(s)) {
+    for (const Update& update : updates_.of(s)) {
       const int rows = pattern_.rows_of(update.source) - update.begin;
       flops[s] += 2 * product(pattern_.columns_of(update.source), update.end - update.begin, rows);
     }
@@ -146,58 +139,53 @@ void SupernodalFactor::cut() {
   }
 }
 
-std::span<const SupernodalFactor::Update> SupernodalFactor::updates_of(int s) const {
-  return std::span(updates_).subspan(updates_begin_[s], updates_begin_[s + 1] - updates_begin_[s]);
-}
-
 bool SupernodalFactor::factorise(const Matrix& lower, double* values) const {
-  SCREE_EXPECT(lower.isCompressed() && static_cast<std::size_t>(lower.nonZeros()) == entries_.size());
-  Spaces spaces(pattern_.unknowns);
-  const auto work = [&](int phase, int task) { run(phase, task, lower.valuePtr(), values, spaces); };
-  if (kernels_.at_once) {
-    run_phases(sizes_, 1, work);
-  } else {
-    for (int phase = 0; phase < static_cast<int>(sizes_.size()); ++phase) {
-      for (int task = 0; task < sizes_[phase]; ++task) work(phase, task);
-    }
-  }
-  return spaces.sound;
+  SCREE_EXPECT(lower.isCompressed() && lower.nonZeros() == matrix_size_);
+  Work work(lower.valuePtr(), values, pattern_.unknowns);
+  run_phases(
+      sizes_, 1, [&](int phase, int task) { run(phase, task, work); }, kernels_.at_once);
+  return work.sound;
 }
 
-void SupernodalFactor::run(int phase, int task, const double* matrix, double* values, Spaces& spaces) const {
-  if (!spaces.sound) return;
-  std::unique_ptr<Space> space = spaces.take();
-  const auto trees = static_cast<int>(forest_.trees.size());
-  if (phase == 0 && task < trees) {
-    for (const int s : forest_.trees[task].supernodes) {
-      const Span below{pattern_.columns_of(s), pattern_.rows_of(s)};
-      const Block whole{s, {0, below.begin}, below.end};
-      assemble(s, matrix, values);
-      gather_corner(whole, values, *space);
-      gather_rows(whole, below, values, *space);
-      if (!factorise_corner(whole, values)) spaces.sound = false;
-      divide_rows(whole, below, values);
+void SupernodalFactor::run(int phase, int task, Work& work) const {
+  if (!work.sound) return;
+  std::unique_ptr<Space> space = work.take_space();
+  if (phase == 0) {
+    const auto trees = static_cast<int>(forest_.trees.size());
+    if (task < trees) {
+      factorise_tree(forest_.trees[task], work, *space);
+    } else {
+      assemble(forest_.top[task - trees], work.matrix, work.values);
     }
-  } else if (phase == 0) {
-    assemble(forest_.top[task - trees], matrix, values);
   } else {
     const Block& block = blocks_[(phase - 1) / 3];
-    switch ((phase - 1) % 3) {
-      case 0:
-        if (task == 0) {
-          gather_corner(block, values, *space);
-        } else {
-          gather_rows(block, rows_of_piece(block, task - 1), values, *space);
-        }
-        break;
-      case 1:
-        if (!factorise_corner(block, values)) spaces.sound = false;
-        break;
-      default:
-        divide_rows(block, rows_of_piece(block, task), values);
+    const int step = (phase - 1) % 3;
+    if (step == 0 && task == 0) {
+      gather_corner(block, work.values, *space);
+    } else if (step == 0) {
+      gather_rows(block, rows_of_piece(block, task - 1), work.values, *space);
+    } else if (step == 1) {
+      if (!factorise_corner(block, work.values)) work.sound = false;
+    } else {
+      divide_rows(block, rows_of_piece(block, task), work.values);
     }
   }
-  spaces.give_back(std::move(space));
+  work.give_back(std::move(space));
+}
+
+void SupernodalFactor::factorise_tree(const CutForest::Tree& tree, Work& work, Space& space) const {
+  for (const int s : tree.supernodes) {
+    const Span below{pattern_.columns_of(s), pattern_.rows_of(s)};
+    const Block whole{s, {0, below.begin}, below.end};
+    assemble(s, work.matrix, work.values);
+    gather_corner(whole, work.values, space);
+    gather_rows(whole, below, work.values, space);
+    if (!factorise_corner(whole, work.values)) {
+      work.sound = false;
+      return;
+    }
+    divide_rows(whole, below, work.values);
+  }
 }
 
 Span SupernodalFactor::rows_of_piece(const Block& block, int piece) const {
@@ -207,9 +195,7 @@ Span SupernodalFactor::rows_of_piece(const Block& block, int piece) const {
 
 void SupernodalFactor::assemble(int s, const double* matrix, double* values) const {
   std::fill(values + pattern_.values_begin[s], values + pattern_.values_begin[s + 1], 0.0);
-  for (std::size_t e = entries_begin_[s]; e < entries_begin_[s + 1]; ++e) {
-    values[entries_[e].place] += matrix[entries_[e].number];
-  }
+  for (const Entry& entry : entries_.of(s)) values[entry.place] += matrix[entry.number];
 }
 
 template <class Visit>
@@ -219,7 +205,7 @@ void SupernodalFactor::for_each_source(const Block& block, const double* values,
     return std::span(pattern_.rows + pattern_.rows_begin[t], static_cast<std::size_t>(pattern_.rows_of(t)));
   };
   const int first = pattern_.first[s] + block.columns.begin, last = pattern_.first[s] + block.columns.end;
-  for (const Update& update : updates_of(s)) {
+  for (const Update& update : updates_.of(s)) {
     const std::span<const int> rows = rows_of(update.source);
     const auto place = [&](int row) {
       return static_cast<int>(std::lower_bound(rows.begin() + update.begin, rows.begin() + update.end, row) - rows.begin());

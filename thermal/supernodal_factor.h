@@ -6,7 +6,6 @@
 // gives the same bits.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <Eigen/SparseCore>
 
 #include "thermal/dense_kernels.h"
+#include "thermal/incidence.h"
 #include "thermal/supernodal_pattern.h"
 #include "thermal/supernode_forest.h"
 
@@ -61,15 +61,18 @@ class SupernodalFactor {
     std::vector<int> places;       // the same, one behind the other
     std::vector<double> products;  // of a source
   };
-  class Spaces;
+  class Work;
 
-  void find_updates();
-  void find_entries(const Matrix& lower);
+  // `holder`: which supernode each column is in.
+  SupernodalFactor(const SupernodalPattern& pattern, const Matrix& lower, const DenseKernels& kernels,
+                   const std::vector<int>& holder);
+  [[nodiscard]] PiecesOfRows<Update> find_updates(const std::vector<int>& holder) const;
+  [[nodiscard]] PiecesOfRows<Entry> find_entries(const std::vector<int>& holder, const Matrix& lower) const;
   void cut();
   [[nodiscard]] std::vector<std::int64_t> flops() const;
-  [[nodiscard]] std::span<const Update> updates_of(int s) const;
 
-  void run(int phase, int task, const double* matrix, double* values, Spaces& spaces) const;
+  void run(int phase, int task, Work& work) const;
+  void factorise_tree(const CutForest::Tree& tree, Work& work, Space& space) const;
   void assemble(int s, const double* matrix, double* values) const;
   template <class Visit>
   void for_each_source(const Block& block, const double* values, const Visit& visit) const;
@@ -81,10 +84,9 @@ class SupernodalFactor {
 
   SupernodalPattern pattern_;
   DenseKernels kernels_;
-  std::vector<std::size_t> updates_begin_;  // of each supernode
-  std::vector<Update> updates_;             // by ascending source
-  std::vector<std::size_t> entries_begin_;  // of each supernode
-  std::vector<Entry> entries_;
+  PiecesOfRows<Update> updates_;  // of each supernode, by ascending source
+  PiecesOfRows<Entry> entries_;   // of each supernode
+  Eigen::Index matrix_size_;      // entries of a matrix
   CutForest forest_;
   std::vector<Block> blocks_;  // of what is above the trees
   std::vector<int> sizes_;     // tasks of each phase

@@ -88,8 +88,8 @@ void SupernodalSolve::solve(const Value* values, const double* rhs, double* solu
   std::vector<std::vector<double>> above(trees_.size());
   TopSupernodes::Space space = top_.space<sides>();
   const auto for_piece = [n](int piece, const auto& visit) {
-    const int end = std::min(n, (piece + 1) * static_cast<int>(chunk_size));
-    for (int i = piece * static_cast<int>(chunk_size); i < end; ++i) visit(i);
+    const Chunk rows = chunk_of(n, piece);
+    for (auto i = static_cast<int>(rows.begin); i < static_cast<int>(rows.end); ++i) visit(i);
   };
   const auto take = [&](int i) {
     for (int c = 0; c < sides; ++c) x[sides * i + c] = rhs[static_cast<std::ptrdiff_t>(c) * n + pattern_.permutation[i]];

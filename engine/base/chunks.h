@@ -21,6 +21,10 @@ constexpr std::size_t chunk_count(std::size_t count) {
   return (count + chunk_size - 1) / chunk_size;
 }
 
+constexpr Chunk chunk_of(std::size_t count, std::size_t number) {
+  return {number, number * chunk_size, std::min(count, (number + 1) * chunk_size)};
+}
+
 // Chunks of things that differ in size: of consecutive ones that are together as large as `size`, or of one that is larger.
 // `ends` are their running sums from 0, one more than there are things.
 inline std::vector<Chunk> chunks_by_size(const std::vector<std::size_t>& ends, std::size_t size) {
@@ -46,10 +50,7 @@ template <class Body>
 void for_chunks(std::size_t count, const Body& body) {
   const auto chunks = static_cast<std::int64_t>(chunk_count(count));
 #pragma omp parallel for schedule(dynamic) if (chunks > 1)
-  for (std::int64_t i = 0; i < chunks; ++i) {
-    const auto number = static_cast<std::size_t>(i);
-    body(Chunk{number, number * chunk_size, std::min(count, (number + 1) * chunk_size)});
-  }
+  for (std::int64_t i = 0; i < chunks; ++i) body(chunk_of(count, static_cast<std::size_t>(i)));
 }
 
 }  // namespace scree

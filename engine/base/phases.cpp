@@ -113,7 +113,7 @@ void run_alone(const PhasedWork& work) {
 void run_phases(const PhasedWork& work) {
   const bool worth_sharing = *std::max_element(work.sizes, work.sizes + work.phases) > 1;
   const int helpers = threads_in_use() - 1;
-  if (!worth_sharing || helpers == 0) return run_alone(work);
+  if (!work.shared || !worth_sharing || helpers == 0) return run_alone(work);
   if (const std::unique_lock lock(crew().busy(), std::try_to_lock); lock.owns_lock()) {
     crew().run(work, helpers);
   } else {

@@ -23,25 +23,24 @@ struct PhasedWork {
   int rounds;  // all phases are done as many times over
   void (*task)(const void* body, int phase, int number);
   const void* body;
+  bool shared = true;  // or all of it done by the calling thread
 };
 
 void run_phases(const PhasedWork& work);
 
-// Calls body(phase, number) for sizes[phase] tasks of each phase, on all threads, and that `rounds` times over. The body must
-// not throw.
+// Calls body(phase, number) for sizes[phase] tasks of each phase, on all threads unless it is not to be shared, and that
+// `rounds` times over. The body must not throw.
 template <class Body>
-void run_phases(std::span<const int> sizes, int rounds, const Body& body) {
+void run_phases(std::span<const int> sizes, int rounds, const Body& body, bool shared = true) {
   const auto task = [](const void* any, int phase, int number) { (*static_cast<const Body*>(any))(phase, number); };
-  run_phases({sizes.data(), static_cast<int>(sizes.size()), rounds, task, &body});
+  run_phases({sizes.data(), static_cast<int>(sizes.size()), rounds, task, &body, shared});
 }
 
 // for_chunks (chunks.h) for loops that are short.
 template <class Body>
 void for_short_chunks(std::size_t count, const Body& body) {
-  run_phases(std::array<int, 1>{static_cast<int>(chunk_count(count))}, 1, [&](int, int task) {
-    const auto number = static_cast<std::size_t>(task);
-    body(Chunk{number, number * chunk_size, std::min(count, (number + 1) * chunk_size)});
-  });
+  run_phases(std::array<int, 1>{static_cast<int>(chunk_count(count))}, 1,
+             [&](int, int task) { body(chunk_of(count, static_cast<std::size_t>(task))); });
 }
 
 // The same for every index.

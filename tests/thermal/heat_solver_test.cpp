@@ -53,6 +53,8 @@ TEST_F(HeatSolvers, GiveTheSameBitsOnHoweverManyThreadsAndWhateverWasSolvedBefor
   const Answers together = answers(scales, 2);
   EXPECT_EQ(together.solutions, alone.solutions);
   EXPECT_EQ(together.estimates, alone.estimates);
+  EXPECT_EQ(together.factorisations, alone.factorisations);
+  EXPECT_EQ(alone.factorisations, 11);
   for (std::size_t i = 0; i < scales.size(); ++i) EXPECT_EQ(answers({scales[i]}, 1).solutions[0], alone.solutions[i]);
   EXPECT_NE(alone.solutions[0], alone.solutions[1]);
 }
