@@ -42,6 +42,12 @@ function(scree_late_library name)
   set_property(GLOBAL APPEND PROPERTY scree_late_libraries ${name})
 endfunction()
 
+# scree_loads_late_libraries(TARGET): builds them with it. It loads them, so no link says that it needs them.
+function(scree_loads_late_libraries target)
+  get_property(late_libraries_made GLOBAL PROPERTY scree_late_libraries)
+  add_dependencies(${target} ${late_libraries_made})
+endfunction()
+
 # scree_test(NAME SOURCES ... LINKS ... [SUITES ...]): a GoogleTest program whose cases CTest knows one by one, or, where the
 # cases of a suite share a costly run, suite by suite.
 function(scree_test name)
@@ -49,9 +55,7 @@ function(scree_test name)
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_LINKS} scree_flags GTest::gtest_main GTest::gmock)
   target_compile_definitions(${name} PRIVATE SCREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  # It loads them, so no link says that it needs them.
-  get_property(late_libraries_made GLOBAL PROPERTY scree_late_libraries)
-  add_dependencies(${name} ${late_libraries_made})
+  scree_loads_late_libraries(${name})
   if(TEST_SUITES)
     foreach(suite IN LISTS TEST_SUITES)
       add_test(NAME ${name}.${suite} COMMAND ${name} --gtest_filter=${suite}.*:*/${suite}.*)

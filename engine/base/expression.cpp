@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,6 +19,8 @@
 namespace scree {
 
 struct Expression::Parser {
+  Parser(const std::string& text, const std::vector<std::string>& variables);
+
   mu::Parser formula;
   std::vector<double> values;  // of the variables; the formula holds their addresses
   std::vector<std::string> used;
@@ -99,23 +103,32 @@ double complementary_error_function(double x) {
 
 }  // namespace
 
-Expression::Expression(const std::string& text, const std::vector<std::string>& variables)
-    : parser_(std::make_shared<Parser>()) {
+Expression::Parser::Parser(const std::string& text, const std::vector<std::string>& variables) : values(variables.size(), 0) {
   refuse_assignment(text);
-  mu::Parser& formula = parser_->formula;
-  parser_->values.assign(variables.size(), 0);
   try {
     formula.DefineConst("pi", std::numbers::pi);
     formula.DefineFun("erf", error_function);
     formula.DefineFun("erfc", complementary_error_function);
-    for (std::size_t i = 0; i < variables.size(); ++i) formula.DefineVar(variables[i], &parser_->values[i]);
+    for (std::size_t i = 0; i < variables.size(); ++i) formula.DefineVar(variables[i], &values[i]);
     formula.SetExpr(text);
-    for (const auto& entry : formula.GetUsedVar()) parser_->used.push_back(entry.first);
+    for (const auto& entry : formula.GetUsedVar()) used.push_back(entry.first);
     formula.Eval();
   } catch (const mu::ParserError& error) {
     throw explain(error, formula, text, variables);
   }
   if (formula.GetNumResults() != 1) throw ExpressionError("it has more than one value", "Write one formula without a comma");
+}
+
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables) {
+  static std::mutex turn;
+  static std::map<std::pair<std::string, std::vector<std::string>>, std::weak_ptr<Parser>> in_use;
+  const std::lock_guard lock(turn);
+  const auto found = in_use.find({text, variables});
+  if (found != in_use.end()) parser_ = found->second.lock();
+  if (parser_) return;
+  std::erase_if(in_use, [](const auto& entry) { return entry.second.expired(); });
+  parser_ = std::make_shared<Parser>(text, variables);
+  in_use[{text, variables}] = parser_;
 }
 
 double Expression::operator()(std::span<const double> values) const {

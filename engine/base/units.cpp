@@ -1,13 +1,17 @@
 #include "engine/base/units.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <udunits2.h>
+#include <unistd.h>
 
 #include "engine/base/check.h"
 
@@ -28,20 +32,56 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 using Converter = std::unique_ptr<cv_converter, FreeConverter>;
 using System = std::unique_ptr<ut_system, FreeSystem>;
 
-System read_system() {
+// Names that UDUNITS lacks, in one of its tables or in all.
+void add_names(ut_system* system) {
+  const auto name = [](const char* symbol, const Unit& unit) { ut_map_symbol_to_unit(symbol, UT_ASCII, unit.get()); };
+  name("deg", Unit{ut_get_unit_by_name(system, "degree")});
+  name("degC", Unit{ut_get_unit_by_symbol(system, "°C")});
+  name("%", Unit{ut_scale(0.01, ut_get_dimensionless_unit_one(system))});
+}
+
+System read_table(const char* file) {
   ut_set_error_message_handler(ut_ignore);
-  System system{ut_read_xml(nullptr)};
-  if (!system) throw RunError("the table of units of UDUNITS-2 cannot be read (Debian package libudunits2-data)");
-  const Unit degree{ut_get_unit_by_name(system.get(), "degree")};
-  ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
+  System system{ut_read_xml(file)};
+  if (system) add_names(system.get());
   return system;
 }
 
-// Read once, at the first unit: it takes some milliseconds.
-ut_system* units() {
-  static const System system = read_system();
-  return system.get();
+// Without the long table of UDUNITS, that of units in common use, from which none of what most scenes name comes: it takes
+// three times as long to read as all others. UDUNITS imports its tables into one file, which here is one that is no longer than
+// the call.
+System read_short_table() {
+  ut_status ignored = UT_SUCCESS;
+  const auto folder = std::filesystem::path(ut_get_path_xml(nullptr, &ignored)).parent_path();
+  std::string text = "<unit-system>";
+  for (const char* part : {"prefixes", "base", "derived", "accepted"}) {
+    text += fmt::format("<import>{}/udunits2-{}.xml</import>", folder.string(), part);
+  }
+  text += "</unit-system>";
+  const int file = ::memfd_create("units", MFD_CLOEXEC);
+  if (file < 0) return nullptr;
+  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  System system = written ? read_table(fmt::format("/proc/self/fd/{}", file).c_str()) : nullptr;
+  ::close(file);
+  return system;
 }
+
+// Each is read once, at the first unit that needs it, and never given back, which would take as long again.
+ut_system* long_table() {
+  static ut_system* const table = read_table(nullptr).release();
+  if (table == nullptr) throw RunError("the table of units of UDUNITS-2 cannot be read (Debian package libudunits2-data)");
+  return table;
+}
+ut_system* short_table() {
+  static ut_system* const table = read_short_table().release();
+  return table != nullptr ? table : long_table();
+}
+
+// What the short table knows, and the long one does not take for something else: there ft is a foot, here a femtotonne.
+constexpr auto words_of_short_table = std::to_array<std::string_view>(
+    {"%", "J",  "K",  "MJ",  "MPa", "MW", "N",  "Pa", "W",  "bar", "cm",  "d",  "day", "days", "deg", "degC", "g",
+     "h", "kJ", "kN", "kPa", "kW",  "kg", "km", "m",  "mK", "mW",  "min", "mm", "ms",  "rad",  "s",   "t",    "um"});
+static_assert(std::is_sorted(words_of_short_table.begin(), words_of_short_table.end()));
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -68,9 +108,25 @@ bool plain_spelling(std::string_view unit) {
   return true;
 }
 
+// Numbers and signs stand between words.
+bool in_short_table(std::string_view spelling) {
+  constexpr std::string_view between = " \t.*/^()+-0123456789";
+  for (std::size_t begin = spelling.find_first_not_of(between); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(spelling.find_first_of(between, begin), spelling.size());
+    const std::string_view word = spelling.substr(begin, end - begin);
+    if (!std::binary_search(words_of_short_table.begin(), words_of_short_table.end(), word)) return false;
+    begin = spelling.find_first_not_of(between, end);
+  }
+  return true;
+}
+
+Unit parse_unit(std::string_view spelling, ut_system* table) {
+  return Unit{ut_parse(table, std::string(spelling).c_str(), UT_UTF8)};
+}
+
 Unit parse_unit(std::string_view spelling) {
   if (!plain_spelling(spelling)) return nullptr;
-  return Unit{ut_parse(units(), std::string(spelling).c_str(), UT_UTF8)};
+  return parse_unit(spelling, in_short_table(spelling) ? short_table() : long_table());
 }
 
 // UDUNITS takes an angle for a plain number; a percentage is no angle all the same.
@@ -88,12 +144,13 @@ bool same_dimension(const ut_unit* a, const ut_unit* b) {
 
 // From `unit` to the SI unit of the quantity, if they measure the same.
 Converter converter_to(const Quantity& quantity, ut_unit* unit) {
-  const Unit si = quantity.unit.empty() ? Unit{ut_get_dimensionless_unit_one(units())} : parse_unit(quantity.unit);
+  ut_system* const table = ut_get_system(unit);  // units of two tables have nothing to do with each other
+  const Unit si = quantity.unit.empty() ? Unit{ut_get_dimensionless_unit_one(table)} : parse_unit(quantity.unit, table);
   SCREE_EXPECT(si != nullptr);
   if (!same_dimension(unit, si.get()) || is_angle(unit) != is_angle(si.get())) return nullptr;
   if (quantity.kind != Quantity::Kind::temperature_difference) return Converter{ut_get_converter(unit, si.get())};
   // As a factor of a product a unit loses its origin: degC m to K m is what differences need, without rounding at 273.15.
-  const Unit metre{ut_get_unit_by_name(units(), "meter")};
+  const Unit metre{ut_get_unit_by_name(table, "meter")};
   const Unit from{ut_multiply(unit, metre.get())};
   const Unit to{ut_multiply(si.get(), metre.get())};
   return Converter{ut_get_converter(from.get(), to.get())};
@@ -170,7 +227,7 @@ double UnitConverter::operator()(double value) const {
 std::variant<UnitConverter, UnitProblem> unit_converter(std::string_view spelling, const Quantity& quantity) {
   spelling = trimmed(spelling);
   const bool si = spelling.empty() || spelling == quantity.unit;
-  const Unit unit = si ? Unit{ut_get_dimensionless_unit_one(units())} : parse_unit(spelling);
+  const Unit unit = si ? Unit{ut_get_dimensionless_unit_one(short_table())} : parse_unit(spelling);
   if (!unit) return wrong_unit("", spelling, quantity, false);
   Converter converter = si ? Converter{ut_get_converter(unit.get(), unit.get())} : converter_to(quantity, unit.get());
   if (!converter) return wrong_unit("", spelling, quantity, true);

@@ -117,6 +117,17 @@ TEST(Function, SeveralThreadsGetTheirOwnValues) {
   EXPECT_THAT(wrong, testing::Each(0));
 }
 
+TEST(Function, FormulasOfTheSameTextDoNotGetInEachOthersWay) {
+  auto first = std::make_optional(formula("x + t"));
+  const Function second = formula("x + t");
+  EXPECT_EQ((*first)({1, 0, 0}, 2), 3);
+  EXPECT_EQ(second({10, 0, 0}, 20), 30);
+  EXPECT_EQ((*first)({1, 0, 0}, 2), 3);
+  first.reset();
+  EXPECT_EQ(second({10, 0, 0}, 20), 30);
+  EXPECT_EQ(formula("x + t")({5, 0, 0}, 6), 11);
+}
+
 TEST(Function, ATableMayBeginWithTheByteOrderMarkOfASpreadsheet) {
   EXPECT_NEAR(table("\xEF\xBB\xBFtime [s], temperature [K]\n0, 300\n2, 400\n", quantity::temperature)(nowhere, 1), 350, 1e-9);
 }

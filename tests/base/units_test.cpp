@@ -64,8 +64,56 @@ TEST(Units, ConvertToSi) {
       {"45 deg", q::angle, std::numbers::pi / 4},
       {"1 rad", q::angle, 1},
       {"5 %", q::number, 0.05},
+      {"2 ft", q::length, 0.6096},
+      {"1 inch", q::length, 0.0254},
+      {"1 common_year", q::time, 365 * 86400},
   };
   for (const Case& c : cases) EXPECT_NEAR(value_of(c.text, c.quantity), c.si, 1e-13 * std::abs(c.si)) << c.text;
+}
+
+// A foot is in the long table of UDUNITS alone. What nearly all scenes name is looked up in the shorter ones.
+TEST(Units, AreTheSameWhicheverTableTheyAreReadFrom) {
+  const std::pair<const char*, Quantity> cases[] = {
+      {"m", q::length},
+      {"cm", q::length},
+      {"mm", q::length},
+      {"um", q::length},
+      {"km", q::length},
+      {"s", q::time},
+      {"ms", q::time},
+      {"min", q::time},
+      {"h", q::time},
+      {"d", q::time},
+      {"day", q::time},
+      {"days", q::time},
+      {"K", q::temperature_difference},
+      {"mK", q::temperature_difference},
+      {"degC", q::temperature_difference},
+      {"kg/m3", q::density},
+      {"g/cm3", q::density},
+      {"t/m^3", q::density},
+      {"J/(kg K)", q::specific_heat},
+      {"kJ/(kg K)", q::specific_heat},
+      {"MJ/(kg K)", q::specific_heat},
+      {"W", q::heat_flow},
+      {"mW", q::heat_flow},
+      {"kW", q::heat_flow},
+      {"MW", q::heat_flow},
+      {"N m/s", q::heat_flow},
+      {"kN m/s", q::heat_flow},
+      {"Pa m3/s", q::heat_flow},
+      {"kPa m3/s", q::heat_flow},
+      {"MPa m3/s", q::heat_flow},
+      {"bar m3/s", q::heat_flow},
+      {"rad", q::angle},
+      {"deg", q::angle},
+      {"%", q::number},
+  };
+  for (const auto& [unit, quantity] : cases) {
+    const auto value = [&](const std::string& spelling) { return value_of(("7 " + spelling).c_str(), quantity); };
+    const double by_long_table = value(std::string(unit) + " ft/ft");
+    EXPECT_NEAR(value(unit), by_long_table, 1e-14 * by_long_table) << unit;
+  }
 }
 
 TEST(Units, BareNumbersAreSiToTheBit) {

@@ -29,7 +29,7 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // The files are written beside the computation; what goes wrong is thrown by the next record() or by finish().
+  // Frames are written beside the computation; what goes wrong there is thrown by the next record() or by finish().
   void record(const thermal::HeatState& state);
 
   // Waits until everything is written.
@@ -37,6 +37,7 @@ class HeatRecorder {
 
  private:
   void write(thermal::HeatState state);
+  void write_row(const Eigen::VectorXd& temperature, double time);  // of the probes
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
   // be some time behind the frames: a run that is killed computes that again.
   void save(const thermal::HeatState& state);

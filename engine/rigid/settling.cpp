@@ -1,4 +1,4 @@
-#include "engine/rigid/settle.h"
+#include "engine/rigid/bullet_room.h"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <fmt/format.h>
@@ -186,6 +186,8 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
 
 }  // namespace
 
+namespace bullet {
+
 packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<MaterialId, Material>& materials,
                            const SettleOptions& options, const FrameSink& frame, const SettleProgress& progress) {
   check(options);
@@ -202,5 +204,7 @@ packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<Materia
   packing.settled = std::move(report);
   return packing;
 }
+
+}  // namespace bullet
 
 }  // namespace scree::rigid
