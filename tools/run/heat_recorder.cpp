@@ -75,14 +75,14 @@ HeatRecorder<dim>::~HeatRecorder() {
 
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
+  Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
+  // Beside a frame that is being written: a row takes less than to start a thread.
+  if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
+  if (!frame_due(scene_, state.time)) return;
   finish();
-  if (!frame_due(scene_, state.time)) {  // a row of a table takes less than to start a thread
-    write_row(model_.rows.to_nodes(state.temperature), state.time);
-    return;
-  }
-  pending_ = std::async(std::launch::async, [this, state]() mutable {
+  pending_ = std::async(std::launch::async, [this, temperature = std::move(temperature), state]() mutable {
     use_threads(1);  // of this thread's own loops
-    write(std::move(state));
+    write(temperature, std::move(state));
   });
 }
 
@@ -92,9 +92,7 @@ void HeatRecorder<dim>::finish() {
 }
 
 template <int dim>
-void HeatRecorder<dim>::write(thermal::HeatState state) {
-  const Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
-  write_row(temperature, state.time);
+void HeatRecorder<dim>::write(const Eigen::VectorXd& temperature, thermal::HeatState state) {
   write_frame(temperature, state);
   if (state.time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
     std::filesystem::remove(restart_);
@@ -104,11 +102,6 @@ void HeatRecorder<dim>::write(thermal::HeatState state) {
   } else {
     unsaved_ = std::move(state);
   }
-}
-
-template <int dim>
-void HeatRecorder<dim>::write_row(const Eigen::VectorXd& temperature, double time) {
-  if (table_) table_->append(time, output::column_values(pile_.probes, temperature, time));
 }
 
 template <int dim>

@@ -29,17 +29,16 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // Frames are written beside the computation; what goes wrong there is thrown by the next record() or by finish().
+  // Frames are written beside the computation; what goes wrong there is thrown when the next is recorded or by finish().
   void record(const thermal::HeatState& state);
 
   // Waits until everything is written.
   void finish();
 
  private:
-  void write(thermal::HeatState state);
-  void write_row(const Eigen::VectorXd& temperature, double time);  // of the probes
+  void write(const Eigen::VectorXd& temperature, thermal::HeatState state);
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
-  // be some time behind the frames: a run that is killed computes that again.
+  // be some time behind the frames and the rows of the probes: a run that is killed computes that again.
   void save(const thermal::HeatState& state);
   void name_frames();
   void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
