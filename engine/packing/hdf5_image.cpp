@@ -1,15 +1,40 @@
 #include "engine/packing/hdf5_image.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace scree::packing {
 
+struct Hdf5Image::Memory {
+  void* bytes = nullptr;  // once the file is closed
+
+  Memory() = default;
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { std::free(bytes); }
+
+  static void* allocate(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* grow(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
+  static herr_t release(void* bytes, H5FD_file_image_op_t why, void* memory) {
+    if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
+      static_cast<Memory*>(memory)->bytes = bytes;
+    } else {
+      std::free(bytes);
+    }
+    return 0;
+  }
+  // HDF5 makes copies of what it is told, all of which are to be this one.
+  static void* copy(void* memory) { return memory; }
+  static herr_t forget(void*) { return 0; }
+};
+
 namespace {
 
-H5::H5File in_memory(std::size_t growth) {
+H5::H5File in_memory(std::size_t growth, H5FD_file_image_callbacks_t memory) {
   H5::Exception::dontPrint();
   H5::FileAccPropList access;
   access.setCore(growth, false);
+  H5Pset_file_image_callbacks(access.getId(), &memory);
   return {"image", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access};
 }
 
@@ -38,7 +63,12 @@ std::vector<T> numbers(const H5::H5File& file, const std::string& name, const H5
 
 }  // namespace
 
-Hdf5Image::Hdf5Image(std::size_t expected) : file_(in_memory(expected + expected / 16 + (1 << 16))) {}
+Hdf5Image::Hdf5Image(std::size_t expected)
+    : memory_(std::make_unique<Memory>()),
+      file_(in_memory(expected + expected / 16 + (1 << 16), {Memory::allocate, nullptr, Memory::grow, Memory::release,
+                                                             Memory::copy, Memory::forget, memory_.get()})) {}
+
+Hdf5Image::~Hdf5Image() = default;
 
 void Hdf5Image::put_attribute(const std::string& name, const std::string& text) {
   const H5::StrType type(H5::PredType::C_S1, text.size() + 1);
@@ -74,16 +104,12 @@ void Hdf5Image::put(const std::string& name, const std::vector<std::string>& val
   set.write(starts.data(), text_type(), H5::DataSpace::ALL, H5::DataSpace::ALL, transfer);
 }
 
-std::string Hdf5Image::bytes() {
+std::string_view Hdf5Image::bytes() {
   file_.flush(H5F_SCOPE_GLOBAL);
   const ssize_t size = H5Fget_file_image(file_.getId(), nullptr, 0);
-  if (size < 0) throw H5::FileIException("H5Fget_file_image", "no image");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_.getId(), bytes.data(), bytes.size()) < 0) {
-    throw H5::FileIException("H5Fget_file_image", "no image");
-  }
   file_.close();
-  return bytes;
+  if (size < 0 || memory_->bytes == nullptr) throw H5::FileIException("H5Fget_file_image", "no image");
+  return {static_cast<const char*>(memory_->bytes), static_cast<std::size_t>(size)};
 }
 
 std::string text_attribute(const H5::H5File& file, const std::string& name) {

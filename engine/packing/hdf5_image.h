@@ -1,9 +1,11 @@
-// HDF5 files as strings of bytes: written in memory, so that a full disk meets plain writing and not HDF5's own clean-up,
+// HDF5 files in memory: written there, so that a full disk meets plain writing and not HDF5's own clean-up,
 // and without times, so that equal contents give equal files.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <H5Cpp.h>
@@ -11,9 +13,15 @@
 namespace scree::packing {
 
 class Hdf5Image {
+  // Where HDF5 takes the file's memory from, and leaves it when it closes the file.
+  struct Memory;
+
  public:
   // `expected`: about how large it will be; it grows in steps of that [bytes].
   explicit Hdf5Image(std::size_t expected);
+  ~Hdf5Image();
+  Hdf5Image(const Hdf5Image&) = delete;
+  Hdf5Image& operator=(const Hdf5Image&) = delete;
 
   void put_attribute(const std::string& name, const std::string& text);
   void put_attribute(const std::string& name, std::int64_t number);
@@ -22,10 +30,11 @@ class Hdf5Image {
   void put(const std::string& name, const std::vector<std::int64_t>& values, std::size_t width = 1);
   void put(const std::string& name, const std::vector<std::string>& values);
 
-  // The file's bytes; ends the image.
-  [[nodiscard]] std::string bytes();
+  // Ends the file. Its bytes, which live as long as this.
+  [[nodiscard]] std::string_view bytes();
 
  private:
+  std::unique_ptr<Memory> memory_;
   H5::H5File file_;
 };
 

@@ -2,6 +2,7 @@
 // itself would read a flipped bit back without a word.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -47,6 +48,9 @@ struct Lists {
 template <int dim>
 Lists pack(const Packing<dim>& packing) {
   Lists lists;
+  lists.nodes.reserve(dim * packing.mesh.nodes.size());
+  lists.elements.reserve((dim + 1) * packing.mesh.elements.size());
+  lists.surfaces.reserve((dim + 1) * packing.mesh.surfaces.size());
   for (const auto& node : packing.mesh.nodes) lists.nodes.insert(lists.nodes.end(), node.begin(), node.end());
   for (const auto& element : packing.mesh.elements) {
     for (const NodeId node : element) lists.elements.push_back(node.value());
@@ -235,26 +239,31 @@ void check_kind(const H5::H5File& in, const std::filesystem::path& file, int dim
 
 template <int dim>
 void write(const Packing<dim>& packing, const std::filesystem::path& file) {
-  const Lists lists = pack(packing);
+  Lists lists = pack(packing);
   Hdf5Image image(sizeof(double) * (lists.nodes.size() + lists.elements.size() + lists.cells.size()));
   image.put_attribute("format", format_name);
   image.put_attribute("version", format_version);
   image.put_attribute("dimension", dim);
   image.put_attribute("key", packing.key);
   image.put_attribute("digest", digest(packing.key, lists));
-  image.put("nodes", lists.nodes, dim);
-  image.put("elements", lists.elements, dim + 1);
-  image.put("blocks", lists.blocks, 7);
-  image.put("cells", lists.cells, 9);
-  image.put("bodies", lists.bodies, 2);
-  image.put("velocities", lists.velocities, 3);
-  image.put("poses", lists.poses, 7);
-  image.put("orientations", lists.orientations, 4);
-  image.put("report", lists.report);
-  image.put("net_force", lists.net_force);
-  image.put("outcome", lists.outcome);
-  image.put("surfaces", lists.surfaces, dim + 1);
-  image.put("surface_bodies", lists.surface_bodies);
+  // Each list goes once it is in the image: a large packing would be in memory twice.
+  const auto put = [&image](const char* name, auto& list, std::size_t width = 1) {
+    const auto gone = std::exchange(list, {});
+    image.put(name, gone, width);
+  };
+  put("nodes", lists.nodes, dim);
+  put("elements", lists.elements, dim + 1);
+  put("blocks", lists.blocks, 7);
+  put("cells", lists.cells, 9);
+  put("bodies", lists.bodies, 2);
+  put("velocities", lists.velocities, 3);
+  put("poses", lists.poses, 7);
+  put("orientations", lists.orientations, 4);
+  put("report", lists.report);
+  put("net_force", lists.net_force);
+  put("outcome", lists.outcome);
+  put("surfaces", lists.surfaces, dim + 1);
+  put("surface_bodies", lists.surface_bodies);
   image.put("texts", lists.texts);
   image.put("made_from", lists.made_from);
   write_text(file, image.bytes());
