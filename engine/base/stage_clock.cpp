@@ -1,5 +1,6 @@
 #include "engine/base/stage_clock.h"
 
+#include <algorithm>
 #include <fstream>
 #include <utility>
 
@@ -33,9 +34,18 @@ StageClock::StageClock(std::string name) : name_(std::move(name)), start_(std::c
   forget_peak();
 }
 
+void StageClock::pause() {
+  before_ = read();
+}
+
+void StageClock::resume() {
+  start_ = std::chrono::steady_clock::now();
+  forget_peak();
+}
+
 StageCost StageClock::read() const {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  return {name_, elapsed.count(), peak_memory()};
+  return {name_, before_.wall_seconds + elapsed.count(), std::max(before_.peak_memory_bytes, peak_memory())};
 }
 
 }  // namespace scree

@@ -19,10 +19,15 @@ class StageClock {
  public:
   explicit StageClock(std::string name);
 
+  // What is done between these is another clock's.
+  void pause();
+  void resume();
+
   [[nodiscard]] StageCost read() const;
 
  private:
   std::string name_;
+  StageCost before_;  // the last pause
   std::chrono::steady_clock::time_point start_;
 };
 

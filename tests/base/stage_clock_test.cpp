@@ -27,6 +27,19 @@ TEST(StageClock, CountsMemoryThatWasHeldForAMomentOnly) {
   EXPECT_GE(clock.read().peak_memory_bytes, before + static_cast<std::int64_t>(190 * mebibyte));
 }
 
+TEST(StageClock, LeavesOutWhatIsDoneInAPause) {
+  StageClock clock("stage");
+  { std::vector<char> large(200 * mebibyte, 'x'); }
+  const StageCost first = clock.read();
+  clock.pause();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  clock.resume();
+  const StageCost both = clock.read();
+  EXPECT_GE(both.wall_seconds, first.wall_seconds);
+  EXPECT_LT(both.wall_seconds, first.wall_seconds + 1.5);
+  EXPECT_GE(both.peak_memory_bytes, first.peak_memory_bytes) << "the peak before the pause counts";
+}
+
 #ifndef __SANITIZE_ADDRESS__  // which keeps freed memory
 TEST(StageClock, AStageDoesNotInheritThePeakOfTheOneBefore) {
   const StageClock large("large");

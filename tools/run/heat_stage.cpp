@@ -110,9 +110,11 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
                     outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
   }
   const auto begin = [&] {
-    begin_results(context);
-    keep_placed(context, packing);
-    packing = {};
+    context.aside("begin", [&] {
+      begin_results(context);
+      keep_placed(context, packing);
+      packing = {};
+    });
   };
   context.stage("heat", fmt::format("{} nodes", outcome.pile.mesh.nodes.size()), [&] {
     scene.heat->time.steady ? find_steady(context, begin, outcome) : run_in_time(context, begin, outcome);

@@ -21,16 +21,28 @@ struct RunContext {
   bool estimate_space_error = false;
   bool begun = false;  // the directory holds this run's files (begin_results.h)
   std::vector<StageCost> costs{};
+  StageClock* running = nullptr;  // of the present stage
 
   // Runs one stage: shows it, measures it, and returns what it made.
   template <class Work>
   auto stage(const std::string& name, const std::string& text, Work work) {
     progress.start(name, text);
-    const StageClock clock(name);
+    StageClock clock(name);
+    running = &clock;
     auto result = work();
     costs.push_back(clock.read());
     progress.finish("");
     return result;
+  }
+
+  // Within a stage what is measured by itself and does not count there.
+  template <class Work>
+  void aside(const std::string& name, Work work) {
+    running->pause();
+    const StageClock clock(name);
+    work();
+    costs.push_back(clock.read());
+    running->resume();
   }
 };
 
