@@ -48,8 +48,7 @@ System read_table(const char* file) {
 }
 
 // Without the long table of UDUNITS, that of units in common use, from which none of what most scenes name comes: it takes
-// three times as long to read as all others. UDUNITS imports its tables into one file, which here is one that is no longer than
-// the call.
+// three times as long to read as all others. UDUNITS imports its tables into one file, which here lasts as long as the call.
 System read_short_table() {
   ut_status ignored = UT_SUCCESS;
   const auto folder = std::filesystem::path(ut_get_path_xml(nullptr, &ignored)).parent_path();
