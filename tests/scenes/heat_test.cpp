@@ -44,6 +44,9 @@ TEST(Slab, FollowsTheSeriesAtItsProbes) {
   EXPECT_LT(largest_error(run, 0.5), 0.05) << "the front is as thin as six elements";
   EXPECT_LT(run.summary["heat"]["ledger_residual"], 1e-8);
   EXPECT_FALSE(run.summary.contains("settle"));
+  std::vector<std::string> stages;
+  for (const auto& stage : run.summary["stages"]) stages.push_back(stage["name"]);
+  EXPECT_EQ(stages, (std::vector<std::string>{"mesh", "contacts", "assemble", "begin", "heat"}));
 }
 
 TEST(Slab, FollowsTheSeriesToAHundredthWithAFineTolerance) {

@@ -110,6 +110,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
                     outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
   }
   const auto begin = [&] {
+    if (context.begun && !is_placed(scene)) return;  // when the blocks fell
     context.aside("begin", [&] {
       begin_results(context);
       keep_placed(context, packing);
