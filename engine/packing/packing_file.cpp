@@ -248,8 +248,7 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put_attribute("digest", digest(packing.key, lists));
   // Each list goes once it is in the image: a large packing would be in memory twice.
   const auto put = [&image](const char* name, auto& list, std::size_t width = 1) {
-    const auto gone = std::exchange(list, {});
-    image.put(name, gone, width);
+    image.put(name, std::exchange(list, {}), width);
   };
   put("nodes", lists.nodes, dim);
   put("elements", lists.elements, dim + 1);

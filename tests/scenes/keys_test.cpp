@@ -1,31 +1,13 @@
 // Which parts of a scene the result of each stage depends on.
 #include "tools/run/keys.h"
 
-#include <fstream>
+#include <gtest/gtest.h>
 
-#include <gmock/gmock.h>
-
-#include "tests/temp_folder.h"
-#include "tools/scene/read_scene.h"
+#include "tests/scene/scene_text.h"
 
 namespace scree {
 
 namespace {
-
-constexpr const char* text = R"(title: a block on a plate
-materials:
-  ore: {density: 2500, conductivity: 3.1, specific_heat: 880}
-bodies:
-  plate: {box: {size: [1, 1, 0.1], centre: [0, 0, -0.05]}, material: ore, mesh_size: 0.1, fixed: true}
-  block: {box: {size: [0.1, 0.1, 0.1], centre: [0, 0, 0.5]}, material: ore, mesh_size: 0.1}
-settle: {}
-heat:
-  initial: 25 degC
-  boundaries: [{body: plate, temperature: 100 degC}]
-  until: 1 h
-output:
-  every: 10 min
-)";
 
 struct Keys {
   std::string fall;
@@ -33,9 +15,7 @@ struct Keys {
 };
 
 Keys keys_with(const std::vector<std::string>& overrides) {
-  const auto file = test::temp_folder() / "s.yaml";
-  std::ofstream(file) << text;
-  const Scene scene = read_scene(file, overrides);
+  const Scene scene = test::scene_of(test::whole_scene, overrides);
   return {run::fall_key(scene), run::heat_key<3>(scene, packing::Packing<3>(), nullptr)};
 }
 

@@ -23,6 +23,15 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
 // the restart file takes as long as a frame of temperatures.
 constexpr std::chrono::seconds longest_unsaved{1};
 
+// The same probes, that read the rows of a model instead of the nodes of its mesh.
+template <int dim>
+std::vector<output::Probe<dim>> probes_of_rows(std::vector<output::Probe<dim>> probes, const thermal::NodeMap& rows) {
+  for (output::Probe<dim>& probe : probes) {
+    for (NodeId& node : probe.reading.nodes) node = rows[node];
+  }
+  return probes;
+}
+
 // At the multiples of the frames' interval, and at the end.
 bool frame_due(const Scene& scene, double time) {
   const double every = scene.frames_every;
@@ -49,6 +58,7 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
     : scene_(scene),
       pile_(pile),
       model_(model),
+      probes_(probes_of_rows(pile.probes, model.rows)),
       restart_(files.restart()),
       several_threads_(threads_in_use() > 1),
       series_(files.directory, "heat", resumed_from) {
@@ -75,14 +85,14 @@ HeatRecorder<dim>::~HeatRecorder() {
 
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
-  Eigen::VectorXd temperature = model_.rows.to_nodes(state.temperature);
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) finish();
   // Beside a frame that is being written: a row takes less than to start a thread.
-  if (table_) table_->append(state.time, output::column_values(pile_.probes, temperature, state.time));
+  if (table_) table_->append(state.time, output::column_values(probes_, state.temperature, state.time));
   if (!frame_due(scene_, state.time)) return;
   finish();
-  pending_ = std::async(std::launch::async, [this, temperature = std::move(temperature), state]() mutable {
+  pending_ = std::async(std::launch::async, [this, state]() mutable {
     use_threads(1);  // of this thread's own loops
-    write(temperature, std::move(state));
+    write(std::move(state));
   });
 }
 
@@ -92,8 +102,8 @@ void HeatRecorder<dim>::finish() {
 }
 
 template <int dim>
-void HeatRecorder<dim>::write(const Eigen::VectorXd& temperature, thermal::HeatState state) {
-  write_frame(temperature, state);
+void HeatRecorder<dim>::write(thermal::HeatState state) {
+  write_frame(model_.rows.to_nodes(state.temperature), state);
   if (state.time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
     std::filesystem::remove(restart_);
     name_frames();

@@ -29,14 +29,14 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // Frames are written beside the computation; what goes wrong there is thrown when the next is recorded or by finish().
+  // Frames are written beside the computation; what goes wrong there is thrown by the next record() after it or by finish().
   void record(const thermal::HeatState& state);
 
   // Waits until everything is written.
   void finish();
 
  private:
-  void write(const Eigen::VectorXd& temperature, thermal::HeatState state);
+  void write(thermal::HeatState state);
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
   // be some time behind the frames and the rows of the probes: a run that is killed computes that again.
   void save(const thermal::HeatState& state);
@@ -46,6 +46,7 @@ class HeatRecorder {
   const Scene& scene_;
   const HeatedPile<dim>& pile_;
   const thermal::HeatModel& model_;
+  std::vector<output::Probe<dim>> probes_;  // of the model's rows
   std::filesystem::path restart_;
   bool several_threads_;
   output::Series series_;

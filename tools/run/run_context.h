@@ -21,7 +21,7 @@ struct RunContext {
   bool estimate_space_error = false;
   bool begun = false;  // the directory holds this run's files (begin_results.h)
   std::vector<StageCost> costs{};
-  StageClock* running = nullptr;  // of the present stage
+  StageClock* running = nullptr;  // of the present stage, if any
 
   // Runs one stage: shows it, measures it, and returns what it made.
   template <class Work>
@@ -31,6 +31,7 @@ struct RunContext {
     running = &clock;
     auto result = work();
     costs.push_back(clock.read());
+    running = nullptr;
     progress.finish("");
     return result;
   }
