@@ -1,5 +1,5 @@
-// Points and directions whose coordinates are one number or four at once: the same operations, in the same order, so the same
-// bits.
+// Points and directions whose coordinates are one number, or four or eight at once: the same operations, in the same order, so
+// the same bits.
 #pragma once
 
 #include <array>
@@ -13,10 +13,6 @@ namespace scree::contact {
 template <int dim, class Number>
 using Coordinates = std::array<Number, dim>;
 
-// What a comparison of numbers gives: a bool, or all bits of a lane or none.
-template <class Number>
-using MaskOf = decltype(Number{} < Number{});
-
 template <int dim>
 SCREE_INLINE Coordinates<dim, double> coordinates(const Point<dim>& point) {
   Coordinates<dim, double> result;
@@ -24,8 +20,27 @@ SCREE_INLINE Coordinates<dim, double> coordinates(const Point<dim>& point) {
   return result;
 }
 
+SCREE_INLINE bool below(double a, double b) {
+  return a < b;
+}
+SCREE_INLINE bool at_most(double a, double b) {
+  return a <= b;
+}
+SCREE_INLINE double chosen(bool first, double a, double b) {
+  return first ? a : b;
+}
 SCREE_INLINE double root(double square) {
   return std::sqrt(square);
+}
+
+SCREE_INLINE auto below(const Quad& a, const Quad& b) {
+  return a < b;
+}
+SCREE_INLINE auto at_most(const Quad& a, const Quad& b) {
+  return a <= b;
+}
+SCREE_INLINE Quad chosen(const decltype(Quad{} < Quad{}) & first, const Quad& a, const Quad& b) {
+  return first ? a : b;
 }
 SCREE_INLINE Quad root(const Quad& square) {
 #ifdef __SSE2__
@@ -37,10 +52,28 @@ SCREE_INLINE Quad root(const Quad& square) {
 #endif
 }
 
-template <class Number>
-SCREE_INLINE Number absolute(const Number& a) {
-  return a < 0 ? -a : a;
+#ifdef SCREE_HAS_AVX2
+// Eight have masks of one bit each. The compiler does not find these by itself: when it reads a comparison it does not know yet
+// what it will be inlined into.
+inline constexpr int rounding_as_set = 4;
+
+SCREE_INLINE unsigned below(const Octet& a, const Octet& b) {
+  return __builtin_ia32_cmppd512_mask(a, b, 1, 0xff, rounding_as_set);
 }
+SCREE_INLINE unsigned at_most(const Octet& a, const Octet& b) {
+  return __builtin_ia32_cmppd512_mask(a, b, 2, 0xff, rounding_as_set);
+}
+SCREE_INLINE Octet chosen(unsigned first, const Octet& a, const Octet& b) {
+  return __builtin_ia32_blendmpd_512_mask(b, a, static_cast<unsigned char>(first));
+}
+SCREE_INLINE Octet root(const Octet& square) {
+  return __builtin_ia32_sqrtpd512_mask(square, square, -1, rounding_as_set);
+}
+#endif
+
+// What a comparison of numbers gives: a bool, all bits of a lane or none, or a bit for each.
+template <class Number>
+using MaskOf = decltype(below(Number{}, Number{}));
 
 template <int dim, class Number>
 SCREE_INLINE Coordinates<dim, Number> minus(const Coordinates<dim, Number>& a, const Coordinates<dim, Number>& b) {

@@ -39,7 +39,7 @@ SCREE_INLINE Number closest_on_segment(const Coordinates<dim, Number>& start, co
   const auto way = minus<dim>(end, start);
   const Number along = dot<dim>(way, minus<dim>(point, start)) / dot<dim>(way, way);
   const Number zero{}, one = zero + 1;
-  return along < zero ? zero : one < along ? one : along;
+  return chosen(below(along, zero), zero, chosen(below(one, along), one, along));
 }
 
 template <int dim, class Number>
@@ -56,7 +56,7 @@ SCREE_INLINE ClosestPoint<dim, Number> closest_point(const CornerCoordinates<dim
   const Number zero{};
   if constexpr (dim == 2) {
     const Number along = closest_on_segment<2>(corners[0], corners[1], point);
-    const MaskOf<Number> on_end = (along == zero) | (1 - along == zero);
+    const MaskOf<Number> on_end = at_most(along, zero) | at_most(1 - along, zero);
     return {{1 - along, along}, on_end};
   } else {
     // Barycentric coordinates of the projection: ratios of the areas of the triangles it forms with the three edges.
@@ -78,15 +78,15 @@ SCREE_INLINE ClosestPoint<dim, Number> closest_point(const CornerCoordinates<dim
         off[axis] = ((1 - along) * corners[from][axis] + along * corners[to][axis]) - point[axis];
       }
       const Number distance = dot<3>(off, off);
-      const auto closer = (weights[i] <= zero) & (distance < least);
-      least = closer ? distance : least;
-      best[i] = closer ? zero : best[i];
-      best[from] = closer ? 1 - along : best[from];
-      best[to] = closer ? along : best[to];
+      const auto closer = at_most(weights[i], zero) & below(distance, least);
+      least = chosen(closer, distance, least);
+      best[i] = chosen(closer, zero, best[i]);
+      best[from] = chosen(closer, 1 - along, best[from]);
+      best[to] = chosen(closer, along, best[to]);
     }
-    const auto inside = (weights[0] > zero) & (weights[1] > zero) & (weights[2] > zero);
-    for (int i = 0; i < 3; ++i) weights[i] = inside ? weights[i] : best[i];
-    const MaskOf<Number> on_rim = (weights[0] == zero) | (weights[1] == zero) | (weights[2] == zero);
+    const auto inside = below(zero, weights[0]) & below(zero, weights[1]) & below(zero, weights[2]);
+    for (int i = 0; i < 3; ++i) weights[i] = chosen(inside, weights[i], best[i]);
+    const MaskOf<Number> on_rim = at_most(weights[0], zero) | at_most(weights[1], zero) | at_most(weights[2], zero);
     return {weights, on_rim};
   }
 }

@@ -9,57 +9,70 @@
 
 namespace scree::contact {
 
-// The edges of two shells, one bit each.
-struct EdgesOfPair {
-  unsigned of_first, of_second;
-};
-
-// Those that do not lie further than `distance` above one of the other's planes as a whole.
-SCREE_INLINE EdgesOfPair edges_within(const ShellPair<3>& pair, float distance) {
-  std::array<unsigned, 4> beyond;  // planes that a vertex is too far beyond, the first's lowest
-  for (int v = 0; v < 4; ++v) beyond[v] = bits(pair.heights[v] > distance);
-  EdgesOfPair within{};
-  for (unsigned e = 0; e < element_edges.size(); ++e) {
-    const unsigned planes = beyond[element_edges[e].start] & beyond[element_edges[e].end];
-    within.of_second |= (planes & 0xfu) == 0 ? 1u << e : 0u;
-    within.of_first |= (planes & 0xf0u) == 0 ? 1u << e : 0u;
-  }
-  return within;
-}
-
 // No edge of a shell rises by more above a plane that leans as little as touch_edge allows.
 inline float allowed_rise(const Shell<3>& shell, float rounding) {
   return flat_sine_bound * 2 * shell.radius + 2 * rounding;
 }
 
-// Pairs that stand out along the gap, each away from the other: the normals of the faces at an edge lean to either side of the
-// other edge (the arc between them on the sphere of directions meets its great circle), or nearly. The cross product of the two
-// edges, that of the first's edge first, points from the first to the second or back.
-SCREE_INLINE EdgePairs standing_out(const ShellPair<3>& pair) {
+// Of each pair of shells the pairs of edges that stand out along the gap, each away from the other: the normals of the faces at
+// an edge lean to either side of the other edge (the arc between them on the sphere of directions meets its great circle), or
+// nearly. The cross product of the two edges, that of the first's edge first, points from the first to the second or back.
+template <class Wide>
+SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> standing_out(const ShellPairs<3, Wide>& pairs) {
   // Heights above the planes of the first are those of the second's edges.
-  const WideLanes allowed = joined(allowed_rise(pair.second, pair.rounding), allowed_rise(pair.first, pair.rounding));
-  EdgePairs first_along = 0, first_against = 0, second_along = 0, second_against = 0;
-  for_each_constant<6>([&](auto e) SCREE_INLINED {
-    const WideLanes rise = pair.heights[element_edges[e].end] - pair.heights[element_edges[e].start];
-    const unsigned along = bits(rise >= -allowed), against = bits(rise <= allowed);
-    const EdgeSenses out_of_first = edges_leaning[along & 0xfu][against & 0xfu];
-    const EdgeSenses out_of_second = edges_leaning[along >> 4][against >> 4];
-    first_along |= spread[out_of_first.along] << e;
-    first_against |= spread[out_of_first.against] << e;
-    second_along |= EdgePairs{out_of_second.along} << 6 * e;
-    second_against |= EdgePairs{out_of_second.against} << 6 * e;
+  const Wide allowed = in_halves<Wide>([&](int k) SCREE_INLINED { return allowed_rise(pairs.second(k), pairs.rounding(k)); },
+                                       [&](int k) SCREE_INLINED { return allowed_rise(pairs.first, pairs.rounding(k)); });
+  std::array<unsigned, 6> along, against;
+  for (int e = 0; e < 6; ++e) {
+    const Wide rise = pairs.heights[element_edges[e].end] - pairs.heights[element_edges[e].start];
+    along[e] = bits(at_most(-allowed, rise));
+    against[e] = bits(at_most(rise, allowed));
+  }
+  std::array<EdgePairs, ShellPairs<3, Wide>::most> standing{};
+  pairs.for_each([&](auto k) SCREE_INLINED {
+    EdgePairs first_along = 0, first_against = 0, second_along = 0, second_against = 0;
+    for_each_constant<6>([&](auto e) SCREE_INLINED {
+      const unsigned to = along[e] >> 8 * k, back = against[e] >> 8 * k;
+      const EdgeSenses out_of_first = edges_leaning[to & 0xfu][back & 0xfu];
+      const EdgeSenses out_of_second = edges_leaning[to >> lane_count & 0xfu][back >> lane_count & 0xfu];
+      first_along |= spread[out_of_first.along] << e;
+      first_against |= spread[out_of_first.against] << e;
+      second_along |= EdgePairs{out_of_second.along} << 6 * e;
+      second_against |= EdgePairs{out_of_second.against} << 6 * e;
+    });
+    standing[k] = (first_along & second_along) | (first_against & second_against);
   });
-  return (first_along & second_along) | (first_against & second_against);
+  return standing;
 }
 
-SCREE_INLINE EdgePairs near_edges(const ShellPair<3>& pair) {
+// Of each pair of shells the pairs of edges that may touch.
+template <class Wide>
+SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> near_edges(const ShellPairs<3, Wide>& pairs) {
   // A semi-edge that touches is within reach and shift of the other shell, and its edge within one more shift.
-  const float distance = slack(pair.first, pair.second) + std::max(pair.first.shift, pair.second.shift) + pair.rounding;
-  const EdgesOfPair edges = edges_within(pair, distance);
-  const EdgePairs near = pairs_of_first(edges.of_first & edges_of_faces[pair.first.faces]) &
-                         pairs_of_second(edges.of_second & edges_of_faces[pair.second.faces]);
+  const auto distance = [&](int k) SCREE_INLINED {
+    return slack(pairs.first, pairs.second(k)) + std::max(pairs.first.shift, pairs.second(k).shift) + pairs.rounding(k);
+  };
+  const auto distances = in_eights<Wide>(distance);
+  std::array<unsigned, 4> beyond;  // of each plane the vertices that are too far beyond it
+  for (int t = 0; t < 4; ++t) beyond[t] = bits(below(distances, pairs.by_plane[t]));
+  // The edges that lie so far beyond a plane as a whole.
+  const auto edges_beyond = [&](int four) SCREE_INLINED {
+    const int shift = lane_count * four;
+    return edges_among[beyond[0] >> shift & 0xfu] | edges_among[beyond[1] >> shift & 0xfu] |
+           edges_among[beyond[2] >> shift & 0xfu] | edges_among[beyond[3] >> shift & 0xfu];
+  };
+  std::array<EdgePairs, ShellPairs<3, Wide>::most> near{};
+  bool asked = false;
+  pairs.for_each([&](auto k) SCREE_INLINED {
+    near[k] = pairs_of_first(edges_of_faces[pairs.first.faces] & ~edges_beyond(2 * k + 1)) &
+              pairs_of_second(edges_of_faces[pairs.second(k).faces] & ~edges_beyond(2 * k));
+    asked |= near[k] != 0 && pairs.second(k).whole;
+  });
   // Both must stand out from the whole of their blocks.
-  return near == 0 || !pair.first.whole || !pair.second.whole ? near : near & standing_out(pair);
+  if (!asked || !pairs.first.whole) return near;
+  const auto standing = standing_out(pairs);
+  pairs.for_each([&](auto k) SCREE_INLINED { near[k] &= pairs.second(k).whole ? standing[k] : ~EdgePairs{0}; });
+  return near;
 }
 
 }  // namespace scree::contact

@@ -1,6 +1,7 @@
 // Which shells the semi-springs of another may touch: by the heights of its vertices.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -21,11 +22,16 @@ struct NearSprings {
   NearShell other;
 };
 
+// How far semi-springs are from the vertices they stand for: shares of a vertex and of each corner of its face in one.
+struct Shares {
+  float kept, moved;
+};
+
 // Appends what the semi-springs of the one may touch of the other, and the other way round.
-template <int dim>
-SCREE_INLINE void add_near_springs(const ShellPair<dim>& pair, float indentation, std::vector<NearSprings>& near) {
-  const auto& heights = pair.heights;
-  WideLanes high = heights[0], sum = high;
+template <int dim, class Wide>
+SCREE_INLINE void add_near_springs(const ShellPairs<dim, Wide>& pairs, const Shares& shares, std::vector<NearSprings>& near) {
+  const auto& heights = pairs.heights;
+  Wide high = heights[0], sum = high;
   for (int v = 1; v <= dim; ++v) {
     high = most(high, heights[v]);
     sum += heights[v];
@@ -33,24 +39,34 @@ SCREE_INLINE void add_near_springs(const ShellPair<dim>& pair, float indentation
   // How far each vertex, a lane each, is beyond any plane of the other shell: no less than this, and the semi-springs beside
   // it, in whichever face, no less than that. In the low half of the second, in the high half of the first. The face of a
   // semi-spring has all vertices but one.
-  const WideLanes centres = indentation / dim * (sum - high);
-  const auto by_plane = transposed_halves(heights[0], heights[1], heights[2], heights[dim == 2 ? 0 : 3]);
-  WideLanes vertices{}, springs{};
+  const Wide centres = shares.moved * (sum - high);
+  Wide vertices{}, springs{};
   for_each_constant<dim + 1>([&](auto t) SCREE_INLINED {
-    vertices = most(vertices, by_plane[t]);
-    springs = most(springs, (1 - indentation) * by_plane[t] + in_halves<t>(centres));
+    vertices = most(vertices, pairs.by_plane[t]);
+    springs = most(springs, shares.kept * pairs.by_plane[t] + in_fours<t>(centres));
   });
-  const WideLanes reach = joined(pair.second.reach, pair.first.reach) + pair.rounding;
-  const unsigned may_touch = bits((vertices <= reach) | (springs <= reach));
+  const Wide rounding = in_eights<Wide>([&](int k) SCREE_INLINED { return pairs.rounding(k); });
+  const Wide reach = in_halves<Wide>([&](int k) SCREE_INLINED { return pairs.second(k).reach; },
+                                     [&](int) SCREE_INLINED { return pairs.first.reach; }) +
+                     rounding;
+  const unsigned may_touch = bits(at_most(vertices, reach) | at_most(springs, reach));
   if (may_touch == 0) return;
   // A semi-spring is no further from its vertex than the indentation times a diameter.
-  const unsigned close = bits(vertices <= reach + 2 * indentation * joined(pair.second.radius, pair.first.radius));
-  const auto add = [&](std::uint32_t own, std::uint32_t other, unsigned vertices_close, const Lanes& bounds) SCREE_INLINED {
-    const bool all = std::popcount(vertices_close & ((2u << dim) - 1)) >= dim;
-    near.push_back({own, {other & 0x7fffffffu, all ? 1u : 0u, least_lane(bounds) - pair.rounding}});
+  const Wide radius = in_halves<Wide>([&](int k) SCREE_INLINED { return pairs.second(k).radius; },
+                                      [&](int) SCREE_INLINED { return pairs.first.radius; });
+  const unsigned close = bits(at_most(vertices, reach + 2 * dim * shares.moved * radius));
+  const Wide bounds = least_in_fours(springs) - rounding;
+  std::array<float, count_of<Wide>> bound;
+  __builtin_memcpy(&bound, &bounds, sizeof bound);
+  const auto add = [&](int four, std::uint32_t own, std::uint32_t other) SCREE_INLINED {
+    if ((may_touch >> lane_count * four & 0xfu) == 0) return;
+    const bool all = std::popcount(close >> lane_count * four & ((2u << dim) - 1)) >= dim;
+    near.push_back({own, {other & 0x7fffffffu, all ? 1u : 0u, bound[lane_count * four]}});
   };
-  if (may_touch >> lane_count != 0) add(pair.first_place, pair.second_place, close >> lane_count, high_half(springs));
-  if ((may_touch & 0xfu) != 0) add(pair.second_place, pair.first_place, close & 0xfu, low_half(springs));
+  pairs.for_each([&](auto k) SCREE_INLINED {
+    add(2 * k + 1, pairs.first_place, pairs.second_place(k));
+    add(2 * k, pairs.second_place(k), pairs.first_place);
+  });
 }
 
 }  // namespace scree::contact

@@ -17,47 +17,54 @@ namespace {
 
 using FacePairs = std::vector<std::pair<FaceId, FaceId>>;
 
-// Which faces of each shell come within `reach` of each plane of the other, one bit for each face: [plane] of the first, faces
-// of the second, then [4 + plane] of the second.
+// The faces of an element all of whose corners are in a set of vertices, one bit each.
 template <int dim>
-SCREE_INLINE std::array<unsigned, wide_count> faces_within(const ShellPair<dim>& pair, float reach) {
-  std::array<unsigned, dim + 1> above, below;  // of each vertex, one bit for each plane
-  for (int v = 0; v <= dim; ++v) {
-    above[v] = bits(pair.heights[v] > reach);
-    below[v] = bits(pair.heights[v] < -reach);
-  }
-  std::array<unsigned, wide_count> within{};
-  for (int face = 0; face <= dim; ++face) {
-    unsigned all_above = ~0u, all_below = ~0u;
-    for (const int corner : mesh::opposite_corners<dim>[face]) {
-      all_above &= above[corner];
-      all_below &= below[corner];
+constexpr std::array<std::uint8_t, 16> faces_among = [] {
+  std::array<std::uint8_t, 16> faces{};
+  for (unsigned vertices = 0; vertices < 16; ++vertices) {
+    for (unsigned f = 0; f <= dim; ++f) {
+      bool all = true;
+      for (const int corner : mesh::opposite_corners<dim>[f]) all = all && (vertices >> corner & 1u) != 0;
+      faces[vertices] = static_cast<std::uint8_t>(faces[vertices] | (all ? 1u : 0u) << f);
     }
-    const unsigned planes = ~(all_above | all_below);
-    for (int plane = 0; plane < wide_count; ++plane) within[plane] |= (planes >> plane & 1u) << face;
   }
-  return within;
-}
+  return faces;
+}();
 
-// The pairs of faces of two shells that may lie on each other.
-template <int dim>
-SCREE_INLINE void add_faces(const ShellPair<dim>& pair, FacePairs& pairs) {
-  const Shell<dim>&a = pair.first, &b = pair.second;
+// Of each pair of shells the pairs of faces that may lie on each other.
+template <int dim, class Wide>
+SCREE_INLINE void add_faces(const ShellPairs<dim, Wide>& pairs, const auto& wanted, FacePairs& found) {
   constexpr auto cosine = static_cast<float>(least_opposed);
   // Heights above an inclined plane are at most 1/cos of the gap between the faces.
-  const float reach = std::min(a.reach, b.reach) / cosine + pair.rounding;
-  const auto within = faces_within<dim>(pair, reach);
-  for (int i = 0; i <= dim; ++i) {
-    if ((a.faces >> i & 1u) == 0) continue;
-    for (unsigned left = within[i] & b.faces; left != 0; left &= left - 1) {
-      const int j = std::countr_zero(left);
-      if ((within[lane_count + j] >> i & 1u) == 0) continue;
-      float opposed = 0;
-      for (int axis = 0; axis < dim; ++axis) opposed -= a.normals[axis][i] * b.normals[axis][j];
-      constexpr float rounding = 1e-6F;
-      if (opposed >= cosine - rounding) pairs.push_back(std::minmax(a.face(i), b.face(j)));
-    }
+  const auto reach = in_eights<Wide>(
+      [&](int k) SCREE_INLINED { return std::min(pairs.first.reach, pairs.second(k).reach) / cosine + pairs.rounding(k); });
+  // Of each plane the vertices that are further above or below it.
+  std::array<unsigned, dim + 1> above, below_it;
+  for (int t = 0; t <= dim; ++t) {
+    above[t] = bits(below(reach, pairs.by_plane[t]));
+    below_it[t] = bits(below(pairs.by_plane[t], -reach));
   }
+  const Shell<dim>& a = pairs.first;
+  pairs.for_each([&](auto k) SCREE_INLINED {
+    const Shell<dim>& b = pairs.second(k);
+    if (!wanted(a, b)) return;
+    // Which faces of the one come within reach of plane t of the other, not those that lie beyond as a whole.
+    const auto within = [&](int t, int four) SCREE_INLINED {
+      const int shift = lane_count * (2 * k + four);
+      return ~(faces_among<dim>[above[t] >> shift & 0xfu] | faces_among<dim>[below_it[t] >> shift & 0xfu]);
+    };
+    for (int i = 0; i <= dim; ++i) {
+      if ((a.faces >> i & 1u) == 0) continue;
+      for (unsigned left = static_cast<unsigned>(within(i, 0)) & b.faces; left != 0; left &= left - 1) {
+        const int j = std::countr_zero(left);
+        if ((static_cast<unsigned>(within(j, 1)) >> i & 1u) == 0) continue;
+        float opposed = 0;
+        for (int axis = 0; axis < dim; ++axis) opposed -= a.normals[axis][i] * b.normals[axis][j];
+        constexpr float rounding = 1e-6F;
+        if (opposed >= cosine - rounding) found.push_back(std::minmax(a.face(i), b.face(j)));
+      }
+    }
+  });
 }
 
 // Pairs by their first face.
@@ -93,8 +100,9 @@ OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wan
   Parts<FacePairs::value_type> found(chunk_count(table.shells.size()));
   visit_near<FacePairs>(
       table,
-      [&](const ShellPair<dim>& pair, FacePairs& pairs) SCREE_INLINED {
-        if (wanted(body_of(pair.first), body_of(pair.second))) add_faces(pair, pairs);
+      [&](const auto& pairs, FacePairs& faces) SCREE_INLINED {
+        const auto both = [&](const Shell<dim>& a, const Shell<dim>& b) { return wanted(body_of(a), body_of(b)); };
+        add_faces(pairs, both, faces);
       },
       [&](std::size_t chunk, const FacePairs& pairs) { found.put(chunk, pairs); });
   return ordered(found, surface.faces.size());

@@ -1,31 +1,40 @@
 #include "contact/point_queries.h"
 
+#include <type_traits>
+
 namespace scree::contact {
 
 namespace {
 
 // Bit i for lane i.
-SCREE_INLINE unsigned bits(const MaskOf<Quad>& mask) {
-  unsigned found = 0;
-  for (int i = 0; i < numbers_in_quad; ++i) found |= static_cast<unsigned>(mask[i]) & 1u << i;
+SCREE_INLINE std::uint64_t bits(const MaskOf<Quad>& mask) {
+  std::uint64_t found = 0;
+  for (int i = 0; i < numbers_in_quad; ++i) found |= static_cast<std::uint64_t>(mask[i]) & 1u << i;
   return found;
+}
+SCREE_INLINE std::uint64_t bits(unsigned mask) {
+  return mask;
 }
 
 }  // namespace
 
 template <int dim>
 void PointQueries<dim>::measure(double tolerance) {
+  near_ = on_rim_ = apart_ = 0;
   // What is behind the last of them is measured, too, and is of no matter.
-  widely([&]() SCREE_INLINED {
-    for (std::size_t first = 0; first < count_; first += numbers_in_quad) {
-      PointQuery<dim, Quad> query;
+  widely([&](auto bytes) SCREE_INLINED {
+    using Some = std::conditional_t<bytes == sizeof(Octet), Octet, Quad>;
+    for (std::size_t first = 0; first < count_; first += sizeof(Some) / sizeof(double)) {
+      PointQuery<dim, Some> query;
       const auto* number = asked_.data();
-      for_each_number(query, [&](Quad& quad) SCREE_INLINED { load(quad, (*number++).data() + first); });
-      const PointAnswer<dim, Quad> answer = contact::measure<dim, Quad>(query, tolerance);
+      for_each_number(query, [&](Some& some) SCREE_INLINED { load(some, (*number++).data() + first); });
+      const PointAnswer<dim, Some> answer = contact::measure<dim, Some>(query, tolerance);
       for (int corner = 0; corner < dim; ++corner) store(answer.on_target[corner], on_target_[corner].data() + first);
       store(answer.gap, gap_.data() + first);
       store(answer.facing, facing_.data() + first);
-      states_[first / numbers_in_quad] = bits(answer.near) | bits(answer.on_rim) << 4 | bits(answer.apart) << 8;
+      near_ |= bits(answer.near) << first;
+      on_rim_ |= bits(answer.on_rim) << first;
+      apart_ |= bits(answer.apart) << first;
     }
   });
 }

@@ -1,8 +1,9 @@
-// Semi-springs and target faces that are measured together, four at a time.
+// Semi-springs and target faces that are measured together, four or eight at a time.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "contact/point_touch.h"
 
@@ -32,9 +33,9 @@ class PointQueries {
     for (int corner = 0; corner < dim; ++corner) answer.on_target[corner] = on_target_[corner][i];
     answer.gap = gap_[i];
     answer.facing = facing_[i];
-    answer.near = (states_[i / numbers_in_quad] >> i % numbers_in_quad & 1u) != 0;
-    answer.on_rim = (states_[i / numbers_in_quad] >> (4 + i % numbers_in_quad) & 1u) != 0;
-    answer.apart = (states_[i / numbers_in_quad] >> (8 + i % numbers_in_quad) & 1u) != 0;
+    answer.near = (near_ >> i & 1u) != 0;
+    answer.on_rim = (on_rim_ >> i & 1u) != 0;
+    answer.apart = (apart_ >> i & 1u) != 0;
     return answer;
   }
 
@@ -55,10 +56,10 @@ class PointQueries {
   static constexpr std::size_t numbers = dim * dim + 4 * dim + 1;
 
   std::size_t count_ = 0;
-  alignas(Quad) std::array<Numbers, numbers> asked_;
-  alignas(Quad) std::array<Numbers, dim> on_target_;
-  alignas(Quad) Numbers gap_, facing_;
-  std::array<unsigned, most / numbers_in_quad> states_;  // of every four: near, on the rim, apart, four bits each
+  alignas(Octet) std::array<Numbers, numbers> asked_;
+  alignas(Octet) std::array<Numbers, dim> on_target_;
+  alignas(Octet) Numbers gap_, facing_;
+  std::uint64_t near_, on_rim_, apart_;  // a bit of each
 };
 
 }  // namespace scree::contact

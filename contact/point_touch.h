@@ -1,4 +1,4 @@
-// What touching means for a semi-spring and a target face, for one of them or four at once.
+// What touching means for a semi-spring and a target face, for one of them or several at once.
 #pragma once
 
 #include "contact/face_point.h"
@@ -37,7 +37,7 @@ struct PointAnswer {
 // Whether the owner's face looks at what it touches from there.
 template <int dim, class Number>
 SCREE_INLINE MaskOf<Number> looks_at(const Coordinates<dim, Number>& owner_normal, const Coordinates<dim, Number>& direction) {
-  return dot<dim>(direction, owner_normal) <= Number{} - least_facing;
+  return at_most(dot<dim>(direction, owner_normal), Number{} - least_facing);
 }
 
 // The semi-spring, or the vertex it stands for, must be within tolerance of the target, the two faces opposed, and the owner's
@@ -46,22 +46,22 @@ template <int dim, class Number>
 SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& query, double tolerance) {
   const Number zero{}, within = tolerance * query.length;
   PointAnswer<dim, Number> answer;
-  answer.near = dot<dim>(query.target_normal, query.owner_normal) < zero;
+  answer.near = below(dot<dim>(query.target_normal, query.owner_normal), zero);
   const auto closest = closest_point<dim, Number>(query.corners, query.point);
   answer.on_target = closest.weights;
   const auto offset = minus<dim>(query.point, weighted_point<dim>(query.corners, closest.weights));
   const Number distance = root(dot<dim>(offset, offset));
   const auto nearest = closest_point<dim, Number>(query.corners, query.vertex).weights;
   const auto beside = minus<dim>(query.vertex, weighted_point<dim>(query.corners, nearest));
-  answer.near = answer.near & ((distance <= within) | (root(dot<dim>(beside, beside)) <= within));
+  answer.near = answer.near & (at_most(distance, within) | at_most(root(dot<dim>(beside, beside)), within));
 
-  answer.apart = distance > no_direction * query.length;
+  answer.apart = below(no_direction * query.length, distance);
   answer.on_rim = closest.on_rim & answer.apart;
   const Number height = dot<dim>(query.target_normal, minus<dim>(query.point, query.corners[0]));
-  const Number signed_distance = dot<dim>(query.target_normal, offset) < zero ? -distance : distance;
-  answer.gap = answer.apart ? signed_distance : height;
+  const Number signed_distance = chosen(below(dot<dim>(query.target_normal, offset), zero), -distance, distance);
+  answer.gap = chosen(answer.apart, signed_distance, height);
   Coordinates<dim, Number> direction;  // of the gap, away from the target
-  for (int i = 0; i < dim; ++i) direction[i] = answer.apart ? offset[i] / answer.gap : query.target_normal[i];
+  for (int i = 0; i < dim; ++i) direction[i] = chosen(answer.apart, offset[i] / answer.gap, query.target_normal[i]);
   answer.near = answer.near & (answer.on_rim | looks_at<dim>(query.owner_normal, direction));
   answer.facing = dot<dim>(direction, query.target_normal);
   return answer;

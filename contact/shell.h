@@ -43,6 +43,7 @@ struct Shell {
 // Where the second of two shells is as seen from the first.
 template <int dim>
 struct Way {
+  Way() = default;
   Way(const Shell<dim>& from, const Shell<dim>& to) {
     // Some ten roundings of single precision, each of a length in this sum.
     constexpr float unit = 2e-6F;
@@ -70,28 +71,6 @@ LanePoints<dim> vertices_from(const Shell<dim>& second, const Way<dim>& way) {
   LanePoints<dim> points = second.at;
   for (int i = 0; i < dim; ++i) points[i] += way.axes[i];
   return points;
-}
-
-// The vertices of the first shell as seen from the second.
-template <int dim>
-LanePoints<dim> vertices_back(const Shell<dim>& first, const Way<dim>& way) {
-  LanePoints<dim> points = first.at;
-  for (int i = 0; i < dim; ++i) points[i] -= way.axes[i];
-  return points;
-}
-
-// Heights above the planes of a shell: of each point, a lane for every plane.
-template <int dim>
-using Heights = std::array<Lanes, dim + 1>;
-
-template <int dim>
-Heights<dim> heights_above(const Shell<dim>& planes, const LanePoints<dim>& points) {
-  Heights<dim> heights;
-  for (int v = 0; v <= dim; ++v) {
-    heights[v] = planes.normals[0] * points[0][v] - planes.offsets;
-    for (int i = 1; i < dim; ++i) heights[v] += planes.normals[i] * points[i][v];
-  }
-  return heights;
 }
 
 // How the search looks at a face: how far it reaches, in characteristic lengths, and how far its semi-springs are moved.

@@ -8,8 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "contact/lanes_in.h"
 #include "contact/shell.h"
-#include "contact/wide_lanes.h"
+#include "engine/base/written_later.h"
 
 namespace scree::contact {
 
@@ -77,21 +78,22 @@ class SpringList {
   // Appends what the semi-springs of a shell of the list may touch of another shell. Calls fetch(first face) for those that
   // they may touch at all. Either the vertex or the semi-spring must be within reach of the target face, and so of all planes
   // of its shell.
-  template <class Fetch>
-  SCREE_INLINE void look_at(std::size_t shell, const Shell<dim>& other, std::vector<PossibleTouch>& possible,
+  template <class Wide, class Fetch>
+  SCREE_INLINE void look_at(std::size_t shell, const Shell<dim>& other, VectorWrittenLater<PossibleTouch>& possible,
                             const Fetch& fetch) const {
     const Shell<dim>& owner = *shells_[shell].shell;
     const Way<dim> way(owner, other);
-    View view;
+    View<Wide> view;
     view.heights(owner, other, way, kept_, moved_);
     const float* limits = limits_.data() + shell * springs_of_shell;
-    const WideLanes reach = joined(owner.reach + way.rounding, owner.reach + way.rounding);
+    const auto reach = repeated<Wide>(owner.reach + way.rounding);
     unsigned near = 0;
-    for (int half = 0; half < 2; ++half) {
-      WideLanes limit;
-      __builtin_memcpy(&limit, limits + half * wide_count, sizeof limit);
-      const WideMask may_touch = least(view.vertex_beyond, view.spring_beyond[half]) <= reach;
-      near |= bits(may_touch & (view.spring_beyond[half] - way.rounding <= limit)) << wide_count * half;
+    for (int part = 0; part < parts<Wide>; ++part) {
+      Wide limit;
+      __builtin_memcpy(&limit, limits + part * count_of<Wide>, sizeof limit);
+      near |= bits(at_most(least(view.vertex_beyond, view.spring_beyond[part]), reach) &
+                   at_most(view.spring_beyond[part] - way.rounding, limit))
+              << part * count_of<Wide>;
     }
     near &= shells_[shell].asked;
     if (near == 0) return;
@@ -102,93 +104,115 @@ class SpringList {
  private:
   static constexpr unsigned all_vertices = (2u << dim) - 1;
 
+  // In so many vectors the semi-springs of a shell are worked on.
+  template <class Wide>
+  static constexpr int parts = springs_of_shell / count_of<Wide>;
+
   struct Own {
     const Shell<dim>* shell;
     unsigned asked;  // its semi-springs, one bit each
   };
 
-  // Another shell as seen from the owner's. Lanes are semi-springs, those of faces 0 and 1 and those of 2 and 3; of vertices
-  // both halves are the same.
+  // Of four lanes, repeated or not, the one of the face of each semi-spring.
+  template <int part>
+  static SCREE_INLINE WideLanes of_faces(const WideLanes& a) {
+    constexpr int first = 2 * part, second = first + 1;
+    return __builtin_shufflevector(a, a, first, first, first, first, second, second, second, second);
+  }
+  template <int>
+  static SCREE_INLINE WidestLanes of_faces(const WidestLanes& a) {
+    return __builtin_shufflevector(a, a, 0, 0, 0, 0, 5, 5, 5, 5, 10, 10, 10, 10, 15, 15, 15, 15);
+  }
+
+  // Another shell as seen from the owner's. Lanes are semi-springs; of vertices all fours are the same.
+  template <class Wide>
   struct View {
-    std::array<WideLanes, dim + 1> vertices;  // heights above each plane
-    std::array<std::array<WideLanes, 2>, dim + 1> springs;
+    std::array<Wide, dim + 1> vertices;  // heights above each plane
+    std::array<std::array<Wide, parts<Wide>>, dim + 1> springs;
     // How far they are beyond any plane.
-    WideLanes vertex_beyond{};
-    std::array<WideLanes, 2> spring_beyond{};
+    Wide vertex_beyond{};
+    std::array<Wide, parts<Wide>> spring_beyond{};
 
     SCREE_INLINE void heights(const Shell<dim>& owner, const Shell<dim>& other, const Way<dim>& way, float kept, float moved) {
-      std::array<WideLanes, dim> at;
+      std::array<Wide, dim> at;
       Lanes of_centre = -other.offsets;
       for (int i = 0; i < dim; ++i) {
-        const Lanes axis = owner.at[i] - way.axes[i];
-        at[i] = joined(axis, axis);
+        at[i] = repeated<Wide>(owner.at[i] - way.axes[i]);
         of_centre -= other.normals[i] * way.axes[i];
       }
       // Three corners of a face move its semi-springs towards its centre: all vertices but one.
       const Lanes sum = moved * (dim + 1) * of_centre;
       for (int t = 0; t <= dim; ++t) {
-        WideLanes height = joined(-other.offsets[t], -other.offsets[t]);
-        for (int i = 0; i < dim; ++i) height += other.normals[i][t] * at[i];
+        Wide height = other.normals[0][t] * at[0] - other.offsets[t];
+        for (int i = 1; i < dim; ++i) height += other.normals[i][t] * at[i];
         vertices[t] = height;
         vertex_beyond = most(vertex_beyond, height);
-        const WideLanes moves = moved * height;
-        const WideLanes vertex = kept * height + sum[t];
-        springs[t][0] = vertex - __builtin_shufflevector(moves, moves, 0, 0, 0, 0, 5, 5, 5, 5);
-        springs[t][1] = vertex - __builtin_shufflevector(moves, moves, 2, 2, 2, 2, 7, 7, 7, 7);
-        for (int half = 0; half < 2; ++half) spring_beyond[half] = most(spring_beyond[half], springs[t][half]);
+        const Wide moves = moved * height;
+        const Wide vertex = kept * height + sum[t];
+        for_each_constant<parts<Wide>>([&](auto part) SCREE_INLINED {
+          springs[t][part] = vertex - of_faces<part>(moves);
+          spring_beyond[part] = most(spring_beyond[part], springs[t][part]);
+        });
       }
     }
   };
 
   // Of each plane of the other the owner's faces that are opposed to it, four bits each.
+  template <class Wide>
   SCREE_INLINE unsigned opposed(const Shell<dim>& owner, const Shell<dim>& other) const {
-    WideLanes low{}, high{};
-    for (int i = 0; i < dim; ++i) {
-      const WideLanes own = joined(owner.normals[i], owner.normals[i]);
-      low += own * __builtin_shufflevector(other.normals[i], other.normals[i], 0, 0, 0, 0, 1, 1, 1, 1);
-      high += own * __builtin_shufflevector(other.normals[i], other.normals[i], 2, 2, 2, 2, 3, 3, 3, 3);
-    }
-    constexpr float rounding = 1e-6F;
-    const WideLanes least_cosine = joined(rounding, rounding);
-    return bits(low < least_cosine) | bits(high < least_cosine) << wide_count;
+    unsigned planes = 0;
+    for_each_constant<parts<Wide>>([&](auto part) SCREE_INLINED {
+      Wide cosines{};
+      for (int i = 0; i < dim; ++i) {
+        cosines += repeated<Wide>(owner.normals[i]) * of_faces<part>(repeated<Wide>(other.normals[i]));
+      }
+      constexpr float rounding = 1e-6F;
+      planes |= bits(below(cosines, repeated<Wide>(rounding))) << part * count_of<Wide>;
+    });
+    return planes;
   }
 
-  SCREE_INLINE void list(const View& view, const Shell<dim>& owner, const Shell<dim>& other, std::size_t shell, unsigned near,
-                         const WideLanes& reach, float rounding, std::vector<PossibleTouch>& possible) const {
-    const unsigned faces_opposed = opposed(owner, other);
-    std::array<unsigned, dim + 1> not_below;  // semi-springs, of each plane
+  template <class Wide>
+  SCREE_INLINE void list(const View<Wide>& view, const Shell<dim>& owner, const Shell<dim>& other, std::size_t shell,
+                         unsigned near, const Wide& reach, float rounding, VectorWrittenLater<PossibleTouch>& possible) const {
+    const unsigned faces_opposed = opposed<Wide>(owner, other);
+    std::array<unsigned, dim + 1> not_below{};  // semi-springs, of each plane
     for (int t = 0; t <= dim; ++t) {
-      const auto& [first, second] = view.springs[t];
-      not_below[t] = bits(first >= -joined(rounding, rounding)) | bits(second >= -joined(rounding, rounding)) << wide_count;
+      for (int part = 0; part < parts<Wide>; ++part) {
+        not_below[t] |= bits(at_most(repeated<Wide>(-rounding), view.springs[t][part])) << part * count_of<Wide>;
+      }
     }
-    for (int t = 0; t <= dim; ++t) {
-      if ((other.faces >> t & 1u) == 0) continue;
-      const WideLanes vertex_away = most(absolute(view.vertices[t]), view.vertex_beyond);
+    const std::size_t listed = possible.size();
+    possible.resize(listed + (dim + 1) * springs_of_shell);
+    PossibleTouch* next = possible.data() + listed;
+    for_each_constant<dim + 1>([&](auto t) SCREE_INLINED {
+      if ((other.faces >> t & 1u) == 0) return;
+      const Wide vertex_away = most(absolute(view.vertices[t]), view.vertex_beyond);
       std::array<float, springs_of_shell> bounds;
       unsigned found = 0;
-      for (int half = 0; half < 2; ++half) {
-        const WideLanes spring_away = most(absolute(view.springs[t][half]), view.spring_beyond[half]);
-        found |= bits(least(vertex_away, spring_away) <= reach) << wide_count * half;
-        const WideLanes bound = most(spring_away - rounding, WideLanes{});
-        __builtin_memcpy(bounds.data() + half * wide_count, &bound, sizeof bound);
+      for (int part = 0; part < parts<Wide>; ++part) {
+        const Wide spring_away = most(absolute(view.springs[t][part]), view.spring_beyond[part]);
+        found |= bits(at_most(least(vertex_away, spring_away), reach)) << part * count_of<Wide>;
+        const Wide bound = most(spring_away - rounding, Wide{});
+        __builtin_memcpy(bounds.data() + part * count_of<Wide>, &bound, sizeof bound);
       }
       found &= near & fourfold[faces_opposed >> 4 * t & 0xfu];
-      if (found == 0) continue;
+      if (found == 0) return;
       unsigned outside = 0;
       for (int plane = 0; plane <= dim; ++plane) outside |= plane == t ? 0u : not_below[plane];
       const FaceId face = other.face(t);
       for (; found != 0; found &= found - 1) {
         const int spring = std::countr_zero(found);
-        possible.push_back({bounds[spring],
-                            static_cast<std::uint16_t>(shell * springs_of_shell + static_cast<std::size_t>(spring)),
-                            (outside >> spring & 1u) == 0, face});
+        *next++ = {bounds[spring], static_cast<std::uint16_t>(shell * springs_of_shell + static_cast<std::size_t>(spring)),
+                   (outside >> spring & 1u) == 0, face};
       }
-    }
+    });
+    possible.resize(static_cast<std::size_t>(next - possible.data()));
   }
 
   float kept_, moved_;  // shares of the vertex and of each corner of its face in a semi-spring
   std::vector<Own> shells_;
-  alignas(WideLanes) std::array<float, most_springs> limits_;
+  alignas(WidestLanes) std::array<float, most_springs> limits_;
 };
 
 }  // namespace scree::contact

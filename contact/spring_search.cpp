@@ -102,10 +102,11 @@ class SpringSearch {
   };
 
   void list_possible(std::size_t begin, bool close) {
-    widely([&]() SCREE_INLINED {
+    widely([&](auto bytes) SCREE_INLINED {
       for (std::size_t i = 0; i < list_.shells(); ++i) {
         near_.for_each(table_.shells, begin + i, close, list_.limit_of_shell(i), [&](std::size_t place) SCREE_INLINED {
-          list_.look_at(i, table_.shells[place], possible_, [&](FaceId face) SCREE_INLINED { fetch(face); });
+          list_.template look_at<LanesIn<bytes>>(i, table_.shells[place], possible_,
+                                                 [&](FaceId face) SCREE_INLINED { fetch(face); });
         });
       }
     });
@@ -228,7 +229,7 @@ class SpringSearch {
   const NearShells& near_;
   SpringTargets<dim>& targets_;
   List list_;
-  std::vector<PossibleTouch> possible_;
+  VectorWrittenLater<PossibleTouch> possible_;
   std::array<std::uint64_t, List::most_springs> nearest_;
   PointQueries<dim> queries_;
   std::array<Asked, PointQueries<dim>::most> asked_;  // of these

@@ -23,14 +23,16 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
   const std::size_t chunks = chunk_count(table.shells.size());
   Parts<NearSprings> near_springs(chunks);
   Parts<NearEdges> near(chunks);
-  const auto indentation = static_cast<float>(options.indentation);
+  const Shares shares{static_cast<float>(1 - options.indentation), static_cast<float>(options.indentation / dim)};
   visit_near<Near<dim>>(
       table,
-      [&](const ShellPair<dim>& pair, Near<dim>& found) SCREE_INLINED {
-        add_near_springs(pair, indentation, found.springs);
+      [&](const auto& pairs, Near<dim>& found) SCREE_INLINED {
+        add_near_springs(pairs, shares, found.springs);
         if constexpr (dim == 3) {
-          const EdgePairs edges = near_edges(pair);
-          if (edges != 0) found.edges.push_back({pair.first_place, pair.second_place, edges});
+          const auto edges = near_edges(pairs);
+          pairs.for_each([&](auto k) SCREE_INLINED {
+            if (edges[k] != 0) found.edges.push_back({pairs.first_place, pairs.second_place(k), edges[k]});
+          });
         }
       },
       [&](std::size_t chunk, const Near<dim>& found) {

@@ -39,6 +39,17 @@ inline constexpr std::array<std::uint8_t, 16> edges_of_faces = [] {
   return edges;
 }();
 
+// Of a set of vertices the edges between two of them, one bit each.
+inline constexpr std::array<unsigned, 16> edges_among = [] {
+  std::array<unsigned, 16> edges{};
+  for (unsigned vertices = 0; vertices < 16; ++vertices) {
+    for (unsigned e = 0; e < 6; ++e) {
+      edges[vertices] |= (vertices >> element_edges[e].start & vertices >> element_edges[e].end & 1u) << e;
+    }
+  }
+  return edges;
+}();
+
 // Is the cross product of the outward normals of an edge's faces, that beside its first vertex aside with the second's, along
 // the edge (in a positively oriented tetrahedron)? Or against it.
 constexpr bool turns_along(const ElementEdge& edge) {

@@ -2,8 +2,8 @@
 #include <bit>
 
 #include "contact/edge_bounds.h"
+#include "contact/lanes_in.h"
 #include "contact/segment.h"
-#include "contact/wide_lanes.h"
 
 namespace scree::contact {
 
@@ -16,38 +16,37 @@ SCREE_INLINE LanePoints<3> scaled(const LanePoints<3>& points, float unit) {
 // The vertices that are asked of two edges, as places in the words below.
 enum Corner { start, end, left, right, of_second };  // left and right: the vertices beside the edge
 
-// Of a pair of edges by the number of its bit in EdgePairs the vertices of both, four bits each.
-constexpr std::array<std::uint32_t, 64> vertices_of_pairs = [] {
-  std::array<std::uint32_t, 64> words{};
-  const auto word = [](const ElementEdge& edge) {
-    const std::array<int, of_second> vertices{edge.start, edge.end, edge.beside[0], edge.beside[1]};
-    std::uint32_t all = 0;
-    for (int i = 0; i < of_second; ++i) all |= static_cast<std::uint32_t>(vertices[i]) << 4 * i;
-    return all;
-  };
-  for (unsigned i = 0; i < 36; ++i) words[i] = word(element_edges[i / 6]) | word(element_edges[i % 6]) << 4 * of_second;
+// Of an edge of the first shell of a pair the vertices, four bits each.
+constexpr std::array<int, 6> vertices_of_edges = [] {
+  std::array<int, 6> words{};
+  for (std::size_t e = 0; e < words.size(); ++e) {
+    const std::array<int, of_second> vertices{element_edges[e].start, element_edges[e].end, element_edges[e].beside[0],
+                                              element_edges[e].beside[1]};
+    for (int i = 0; i < of_second; ++i) words[e] |= vertices[i] << 4 * i;
+  }
   return words;
 }();
 
-// As many pairs of an edge of the first with one of the second as there are lanes: in the low half those of two shells, in the
-// high half those of two others.
+// As many pairs of an edge of the first with one of the second as there are lanes: in each four of them those of two shells.
+template <class Wide>
 struct SomePairs {
-  std::array<std::uint8_t, wide_count> numbers;  // of their bits in EdgePairs
-  WideMask vertices;                             // words as above
-  unsigned asked = 0;                            // bit i: there is a pair i
+  PlacesIn<Wide> numbers;   // of their bits in EdgePairs
+  PlacesIn<Wide> vertices;  // of both edges, four bits each, those of the second above those of the first
+  unsigned asked = 0;       // bit i: there is a pair i
 };
 
 // Where the lines of some pairs of edges come closest.
+template <class Wide>
 struct Crossing {
-  WideLanes square;         // of the common normal, the cross product of the edges
-  WideLanes along_first;    // fraction of the way along the edge of the first, times that square
-  WideLanes along_second;   // the same on the edge of the second
-  WidePoints across_first;  // from the edge of the first sideways, in the plane of both
-  WidePoints across_second;
-  WidePoints start_first;  // of the edges
-  WidePoints start_second;
-  WideLanes off_first, off_second;  // of along_first and along_second, by rounding
-  unsigned near = 0;                // bit i: the pair i may touch, as far as this tells
+  Wide square;                        // of the common normal, the cross product of the edges
+  Wide along_first;                   // fraction of the way along the edge of the first, times that square
+  Wide along_second;                  // the same on the edge of the second
+  Coordinates<3, Wide> across_first;  // from the edge of the first sideways, in the plane of both
+  Coordinates<3, Wide> across_second;
+  Coordinates<3, Wide> start_first;  // of the edges
+  Coordinates<3, Wide> start_second;
+  Wide off_first, off_second;  // of along_first and along_second, by rounding
+  unsigned near = 0;           // bit i: the pair i may touch, as far as this tells
 };
 
 // Of some pairs, one bit each, as in TouchingEdges.
@@ -62,12 +61,12 @@ struct TouchingSome {
 // of single precision.
 struct Scaled {
   Scaled() = default;
-  SCREE_INLINE Scaled(const Shell<3>& a, const Shell<3>& b, float indentation) {
+  SCREE_INLINE Scaled(const Shell<3>& a, const Shell<3>& b, float moved) {
     const Way<3> way(a, b);
     const float unit = 1 / a.radius;
     distance = unit * slack(a, b);
     off = 2 * unit * way.rounding;
-    aside = 2 * indentation / 3 * unit * std::max(a.radius, b.radius);
+    aside = 2 * moved * unit * std::max(a.radius, b.radius);
     first = scaled(a.at, unit);
     second = scaled(vertices_from(b, way), unit);
   }
@@ -78,121 +77,151 @@ struct Scaled {
   LanePoints<3> first, second;  // their vertices as seen from the first
 };
 
-// The semi-edges beside the edges of two times two shells, some pairs of edges at a time.
+// The semi-edges beside the edges of as many times two shells as there are fours of lanes, some pairs of edges at a time.
+template <class Wide>
 class EdgeBounds {
+  using Points = Coordinates<3, Wide>;
+
  public:
-  SCREE_INLINE EdgeBounds(const Scaled& low, const Scaled& high, float indentation)
-      : distance_(joined(low.distance, high.distance)),
-        off_(joined(low.off, high.off)),
-        aside_(joined(low.aside, high.aside)),
-        kept_(1 - indentation),
-        moved_(indentation / 3),
-        first_(joined(low.first, high.first)),
-        second_(joined(low.second, high.second)) {}
+  using Fours = std::array<Scaled, fours_of<Wide>>;
+
+  SCREE_INLINE EdgeBounds(const Fours& shells, float kept, float moved)
+      : distance_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.distance); })),
+        off_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.off); })),
+        aside_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.aside); })),
+        kept_(kept),
+        moved_(moved) {
+    for (int i = 0; i < 3; ++i) {
+      first_[i] = of_fours(shells, [&](const Scaled& of) SCREE_INLINED { return of.first[i]; });
+      second_[i] = of_fours(shells, [&](const Scaled& of) SCREE_INLINED { return of.second[i]; });
+    }
+  }
 
   // The fractions along both edges are line_crossing's, times the square of the common normal. A semi-edge crosses the other
   // edge between the ends of both, seen along the normal: its start is moved by a share of the way along its edge, which moves
   // it by as much along the edge and not across it, and by the same share of the way to the third corner of its face.
-  SCREE_INLINE void may_touch(const SomePairs& pairs, TouchingSome& touching) const {
-    Crossing lines;
+  SCREE_INLINE void may_touch(const SomePairs<Wide>& pairs, TouchingSome& touching) const {
+    Crossing<Wide> lines;
     cross_lines(pairs, lines);
     if (lines.near == 0) return;
-    const WideLanes moved_along = moved_ * lines.square, kept = kept_ * lines.square;
+    const Wide moved_along = moved_ * lines.square, kept = kept_ * lines.square;
     for (std::size_t k = 0; k < 2; ++k) {
       // The face beside one of the two other vertices has the other one as its third corner.
       const int third = k == 0 ? right : left;
-      const WidePoints a = minus(of_first(pairs, third), lines.start_first);
-      const WidePoints b = minus(of_second_shell(pairs, third), lines.start_second);
-      const WideLanes own_first = lines.along_first - moved_along - moved_ * dot(a, lines.across_second);
-      const WideLanes target_second = lines.along_second + moved_ * dot(a, lines.across_first);
-      touching.of_first[k] =
-          lines.near & bits(within(own_first, kept, lines.off_first) & within(target_second, lines.square, lines.off_second));
-      const WideLanes own_second = lines.along_second - moved_along - moved_ * dot(b, lines.across_first);
-      const WideLanes target_first = lines.along_first + moved_ * dot(b, lines.across_second);
-      touching.of_second[k] =
-          lines.near & bits(within(own_second, kept, lines.off_second) & within(target_first, lines.square, lines.off_first));
+      const Points a = minus<3>(of_first(pairs, third), lines.start_first);
+      const Points b = minus<3>(of_second_shell(pairs, third), lines.start_second);
+      const Wide own_first = lines.along_first - moved_along - moved_ * dot<3>(a, lines.across_second);
+      const Wide target_second = lines.along_second + moved_ * dot<3>(a, lines.across_first);
+      touching.of_first[k] = lines.near & both_within(beyond_ends<Wide>(own_first, kept) - lines.off_first,
+                                                      beyond_ends<Wide>(target_second, lines.square) - lines.off_second);
+      const Wide own_second = lines.along_second - moved_along - moved_ * dot<3>(b, lines.across_first);
+      const Wide target_first = lines.along_first + moved_ * dot<3>(b, lines.across_second);
+      touching.of_second[k] = lines.near & both_within(beyond_ends<Wide>(own_second, kept) - lines.off_second,
+                                                       beyond_ends<Wide>(target_first, lines.square) - lines.off_first);
     }
   }
 
  private:
+  static SCREE_INLINE Wide of_fours(const Fours& shells, const auto& number) {
+    std::array<Lanes, fours_of<Wide>> fours;
+    for (int i = 0; i < fours_of<Wide>; ++i) fours[i] = number(shells[i]);
+    return in_a_row<Wide>(fours);
+  }
+
+  // Are both no more than 0? One comparison at the end takes less time than one of each, one after the other.
+  static SCREE_INLINE unsigned both_within(const Wide& a, const Wide& b) { return bits(at_most(most(a, b), Wide{})); }
+
   // A vertex of the edge of the first of each pair, and of the second.
-  SCREE_INLINE WidePoints of_first(const SomePairs& pairs, int corner) const {
+  SCREE_INLINE Points of_first(const SomePairs<Wide>& pairs, int corner) const {
     return picked(first_, pairs.vertices >> 4 * corner);
   }
-  SCREE_INLINE WidePoints of_second_shell(const SomePairs& pairs, int corner) const {
+  SCREE_INLINE Points of_second_shell(const SomePairs<Wide>& pairs, int corner) const {
     return picked(second_, pairs.vertices >> 4 * (of_second + corner));
   }
 
-  SCREE_INLINE void cross_lines(const SomePairs& pairs, Crossing& lines) const {
+  SCREE_INLINE void cross_lines(const SomePairs<Wide>& pairs, Crossing<Wide>& lines) const {
     lines.start_first = of_first(pairs, start);
     lines.start_second = of_second_shell(pairs, start);
-    const WidePoints a = minus(of_first(pairs, end), lines.start_first);
-    const WidePoints b = minus(of_second_shell(pairs, end), lines.start_second);
-    const WidePoints between = minus(lines.start_second, lines.start_first);
-    const WidePoints normal = cross(a, b);
-    lines.square = dot(normal, normal);
+    const Points a = minus<3>(of_first(pairs, end), lines.start_first);
+    const Points b = minus<3>(of_second_shell(pairs, end), lines.start_second);
+    const Points between = minus<3>(lines.start_second, lines.start_first);
+    const Points normal = cross(a, b);
+    lines.square = dot<3>(normal, normal);
     lines.across_first = cross(normal, a);
     lines.across_second = cross(b, normal);
-    lines.along_first = dot(between, lines.across_second);
-    lines.along_second = -dot(between, lines.across_first);
-    const WideLanes a_square = dot(a, a), b_square = dot(b, b), volume = dot(between, normal);
-    const WideLanes a_length = most_length(a), b_length = most_length(b), off = off_ * a_length * b_length;
+    lines.along_first = dot<3>(between, lines.across_second);
+    lines.along_second = -dot<3>(between, lines.across_first);
+    const Wide a_square = dot<3>(a, a), b_square = dot<3>(b, b), volume = dot<3>(between, normal);
+    const Wide a_length = most_length<Wide>(a), b_length = most_length<Wide>(b), off = off_ * a_length * b_length;
     lines.off_first = off * b_length;
     lines.off_second = off * a_length;
     // Beside the place of the edges that of a semi-edge: its shift from the start times a vector across.
-    const WideLanes aside = aside_ * most_length(normal);
+    const Wide aside = aside_ * most_length<Wide>(normal);
     constexpr float least_square = 0.99F * static_cast<float>(least_crossing_sine * least_crossing_sine);
     // The square of a sum x + y is at most 1.01 x^2 + 101 y^2.
-    const auto near_lines = volume * volume <= 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
-    const auto crossing = lines.square >= least_square * a_square * b_square;
-    lines.near = bits(near_lines & crossing & within(lines.along_first, lines.square, lines.off_first + aside * b_length) &
-                      within(lines.along_second, lines.square, lines.off_second + aside * a_length));
+    const Wide near_lines = 1.01F * distance_ * distance_ * lines.square + 101.0F * off * off;
+    lines.near = both_within(most(volume * volume - near_lines, least_square * a_square * b_square - lines.square),
+                             most(beyond_ends<Wide>(lines.along_first, lines.square) - (lines.off_first + aside * b_length),
+                                  beyond_ends<Wide>(lines.along_second, lines.square) - (lines.off_second + aside * a_length)));
   }
 
-  WideLanes distance_, off_, aside_;
-  float kept_;                 // length of a semi-edge, over that of its edge
-  float moved_;                // share of each corner of its face in a semi-spring
-  WidePoints first_, second_;  // vertices
+  Wide distance_, off_, aside_;
+  float kept_;             // length of a semi-edge, over that of its edge
+  float moved_;            // share of each corner of its face in a semi-spring
+  Points first_, second_;  // vertices
 };
 
-// Goes through many pairs of shells with two of them at hand, one in each half of the lanes.
-class Halves {
+// Goes through many pairs of shells with some of them at hand, one in each four of the lanes.
+template <class Wide>
+class Fours {
  public:
-  SCREE_INLINE Halves(const std::vector<ShellEdges>& shells, float indentation, std::vector<TouchingEdges>& touching)
-      : shells_(shells), indentation_(indentation), touching_(touching) {}
-
-  // Fills halves that have nothing left. False if there is nothing in either.
-  SCREE_INLINE bool fill() {
-    for (int half = 0; half < 2; ++half) {
-      if (left_[half] != 0 || next_ == shells_.size()) continue;
-      const auto& [first, second, edges] = shells_[next_];
-      scaled_[half] = Scaled(*first, *second, indentation_);
-      left_[half] = edges;
-      at_[half] = next_++;
-    }
-    return (left_[0] | left_[1]) != 0;
+  SCREE_INLINE Fours(const std::vector<ShellEdges>& shells, float indentation, std::vector<TouchingEdges>& touching)
+      : shells_(shells), kept_(1 - indentation), moved_(indentation / 3), touching_(touching) {
+    for (int i = 0; i < 6; ++i) vertices_[i] = vertices_of_edges[i];
+    for (int i = 0; i < count_of<Wide>; ++i)
+      of_fours_[i] = static_cast<int>(static_cast<unsigned>(i / lane_count) * 0x44444444u);
   }
 
-  [[nodiscard]] SCREE_INLINE EdgeBounds bounds() const { return {scaled_[0], scaled_[1], indentation_}; }
+  // Fills fours that have nothing left. False if there is nothing in any.
+  SCREE_INLINE bool fill() {
+    EdgePairs any = 0;
+    for (int four = 0; four < count; ++four) {
+      if (left_[four] == 0 && next_ != shells_.size()) {
+        const auto& [first, second, edges] = shells_[next_];
+        scaled_[four] = Scaled(*first, *second, moved_);
+        left_[four] = edges;
+        at_[four] = next_++;
+      }
+      any |= left_[four];
+    }
+    return any != 0;
+  }
 
-  // Takes some pairs from both halves; lanes without one are of no matter.
-  SCREE_INLINE void take(SomePairs& pairs) {
-    std::array<std::uint32_t, wide_count> words;
+  [[nodiscard]] SCREE_INLINE EdgeBounds<Wide> bounds() const { return {scaled_, kept_, moved_}; }
+
+  // Takes some pairs from each four; lanes without one are of no matter.
+  SCREE_INLINE void take(SomePairs<Wide>& pairs) {
+    std::array<Lanes, count> numbers;
     pairs.asked = 0;
-    for (int half = 0; half < 2; ++half) {
-      constexpr std::uint32_t in_high_half = 0x44444444;  // added to each vertex
-      EdgePairs& left = left_[half];
-      for (int i = lane_count * half; i < lane_count * (half + 1); ++i) {
-        pairs.asked |= (left != 0 ? 1u : 0u) << i;
-        pairs.numbers[i] = static_cast<std::uint8_t>(std::countr_zero(left) & 63);
-        words[i] = vertices_of_pairs[pairs.numbers[i]] + (half == 0 ? 0 : in_high_half);
+    for (int four = 0; four < count; ++four) {
+      EdgePairs& left = left_[four];
+      const int some = std::min(std::popcount(left), lane_count);
+      pairs.asked |= ((1u << some) - 1) << lane_count * four;
+      LaneMask of_four;
+      for (int i = 0; i < lane_count; ++i) {
+        of_four[i] = std::countr_zero(left);
         left &= left - 1;
       }
+      numbers[four] = std::bit_cast<Lanes>(of_four);
     }
-    for (int i = 0; i < wide_count; ++i) pairs.vertices[i] = static_cast<int>(words[i]);
+    const Wide all = in_a_row<Wide>(numbers);
+    pairs.numbers = std::bit_cast<PlacesIn<Wide>>(all);
+    const PlacesIn<Wide> first = pairs.numbers * 43 >> 8;  // over 6, for numbers up to 64
+    const PlacesIn<Wide> second = pairs.numbers - 6 * first;
+    pairs.vertices = shuffled(vertices_, first) + (shuffled(vertices_, second) << 4 * of_second) + of_fours_;
   }
 
-  SCREE_INLINE void keep(const TouchingSome& found, const SomePairs& pairs) {
+  SCREE_INLINE void keep(const TouchingSome& found, const SomePairs<Wide>& pairs) {
     for (std::size_t k = 0; k < 2; ++k) {
       keep(found.of_first[k] & pairs.asked, pairs,
            [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_first[k]; });
@@ -202,8 +231,10 @@ class Halves {
   }
 
  private:
+  static constexpr int count = fours_of<Wide>;
+
   template <class SetOf>
-  SCREE_INLINE void keep(unsigned found, const SomePairs& pairs, const SetOf& set_of) {
+  SCREE_INLINE void keep(unsigned found, const SomePairs<Wide>& pairs, const SetOf& set_of) {
     for (; found != 0; found &= found - 1) {
       const int i = std::countr_zero(found);
       set_of(touching_[at_[i / lane_count]]) |= EdgePairs{1} << pairs.numbers[i];
@@ -211,26 +242,29 @@ class Halves {
   }
 
   const std::vector<ShellEdges>& shells_;
-  float indentation_;
+  float kept_, moved_;  // as in EdgeBounds
   std::vector<TouchingEdges>& touching_;
   std::size_t next_ = 0;
-  std::array<std::size_t, 2> at_{};
-  std::array<EdgePairs, 2> left_{};
-  std::array<Scaled, 2> scaled_{};
+  std::array<std::size_t, count> at_{};
+  std::array<EdgePairs, count> left_{};
+  std::array<Scaled, count> scaled_{};
+  PlacesIn<Wide> vertices_{};
+  PlacesIn<Wide> of_fours_;  // added to each vertex of their lanes
 };
 
 }  // namespace
 
 void find_touching_edges(const std::vector<ShellEdges>& shells, double indentation, std::vector<TouchingEdges>& touching) {
   touching.assign(shells.size(), {});
-  widely([&]() SCREE_INLINED {
-    Halves halves(shells, static_cast<float>(indentation), touching);
-    while (halves.fill()) {
-      SomePairs some;
-      halves.take(some);
+  widely([&](auto bytes) SCREE_INLINED {
+    using Wide = LanesIn<bytes>;
+    Fours<Wide> fours(shells, static_cast<float>(indentation), touching);
+    while (fours.fill()) {
+      SomePairs<Wide> some;
+      fours.take(some);
       TouchingSome found;
-      halves.bounds().may_touch(some, found);
-      if (found.any()) halves.keep(found, some);
+      fours.bounds().may_touch(some, found);
+      if (found.any()) fours.keep(found, some);
     }
   });
 }

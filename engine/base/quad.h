@@ -1,4 +1,4 @@
-// Four numbers in double precision that are worked on at once, by wide.h's instructions.
+// Four or eight numbers in double precision that are worked on at once, by wide.h's instructions.
 #pragma once
 
 #include <cstring>
@@ -12,13 +12,16 @@ namespace scree {
 
 inline constexpr int numbers_in_quad = 4;
 using Quad = double __attribute__((vector_size(numbers_in_quad * sizeof(double))));
+using Octet = double __attribute__((vector_size(2 * numbers_in_quad * sizeof(double))));
 
-SCREE_INLINE void load(Quad& quad, const double* from) {
-  std::memcpy(&quad, from, sizeof quad);
+template <class Vector>
+SCREE_INLINE void load(Vector& numbers, const double* from) {
+  std::memcpy(&numbers, from, sizeof numbers);
 }
 
-SCREE_INLINE void store(const Quad& quad, double* to) {
-  std::memcpy(to, &quad, sizeof quad);
+template <class Vector>
+SCREE_INLINE void store(const Vector& numbers, double* to) {
+  std::memcpy(to, &numbers, sizeof numbers);
 }
 
 }  // namespace scree

@@ -1,6 +1,8 @@
 // Wider instructions where the processor has them. Without fused operations they round like the plain ones.
 #pragma once
 
+#include <type_traits>
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 // For a function that is compiled twice. What it calls has to be inlined to gain by it.
 #define SCREE_WIDE __attribute__((target_clones("avx2", "default")))
@@ -15,26 +17,35 @@
 
 namespace scree {
 
+// How long the longest vectors are that something is compiled for.
+template <int count>
+using VectorBytes = std::integral_constant<int, count>;
+
 #ifdef SCREE_HAS_AVX2
 template <class Body>
-__attribute__((target("avx2"))) void with_avx2(const Body& body) {
-  body();
+__attribute__((target("avx2,bmi,bmi2,popcnt"))) void with_avx2(const Body& body) {
+  body(VectorBytes<32>{});
 }
 
-// Vectors as long as AVX2's: what is gained is twice as many registers, and masks of their own.
+// What the compiler makes vectors of by itself is as long as with AVX2.
 template <class Body>
-__attribute__((target("avx2,avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=256"))) void with_avx512(const Body& body) {
-  body();
+__attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=256"))) void with_avx512(
+    const Body& body) {
+  body(VectorBytes<64>{});
 }
 
+inline bool has_avx2() {
+  return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0 &&
+         __builtin_cpu_supports("popcnt") != 0;
+}
 inline bool has_avx512() {
-  return __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+  return has_avx2() && __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
          __builtin_cpu_supports("avx512vl") != 0;
 }
 #endif
 
-// Calls body(), a lambda that is SCREE_INLINED, with wider instructions if there are any. Unlike a function that is SCREE_WIDE
-// it may hold vectors as wide as these.
+// Calls body(VectorBytes<...>()), a lambda that is SCREE_INLINED, with wider instructions if there are any. Unlike a function
+// that is SCREE_WIDE it may hold vectors as long as these.
 template <class Body>
 void widely(const Body& body) {
 #ifdef SCREE_HAS_AVX2
@@ -42,12 +53,12 @@ void widely(const Body& body) {
     with_avx512(body);
     return;
   }
-  if (__builtin_cpu_supports("avx2") != 0) {
+  if (has_avx2()) {
     with_avx2(body);
     return;
   }
 #endif
-  body();
+  body(VectorBytes<32>{});
 }
 
 }  // namespace scree
