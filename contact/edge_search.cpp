@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "contact/choice.h"
@@ -14,13 +15,28 @@ namespace scree::contact {
 
 namespace {
 
+// Which of twelve blocks is this one, a bit for each three of them.
+unsigned threes_with(const BlockId* blocks, BlockId block) {
+  static_assert(sizeof(BlockId) == sizeof(int));
+  const int asked = block.value();
+  unsigned all = 0;
+  for (int four = 0; four < 3; ++four) {
+    LaneMask some;
+    std::memcpy(&some, blocks + lane_count * four, sizeof some);
+    all |= bits(some == LaneMask{asked, asked, asked, asked}) << lane_count * four;
+  }
+  all |= all >> 1 | all >> 2;
+  return (all & 1u) | (all >> 2 & 2u) | (all >> 4 & 4u) | (all >> 6 & 8u);
+}
+
 // Which edges of a shell have a face with a semi-spring whose target is on a block, one bit each.
 unsigned edges_on(const Shell<3>& shell, const LargeVector<BlockId>& spring_blocks, BlockId block) {
+  const BlockId* spring = spring_blocks.data() + shell.first.index() * 3;
+  if (shell.faces == 0xfu) return edges_of_faces[threes_with(spring, block)];
   unsigned faces = 0;
-  std::size_t spring = shell.first.index() * 3;
   for (unsigned f = 0; f < 4; ++f) {
     if ((shell.faces >> f & 1u) == 0) continue;
-    const bool on = spring_blocks[spring] == block || spring_blocks[spring + 1] == block || spring_blocks[spring + 2] == block;
+    const bool on = spring[0] == block || spring[1] == block || spring[2] == block;
     faces |= (on ? 1u : 0u) << f;
     spring += 3;
   }

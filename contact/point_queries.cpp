@@ -30,6 +30,7 @@ void PointQueries<dim>::measure(double tolerance) {
       for_each_number(query, [&](Some& some) SCREE_INLINED { load(some, (*number++).data() + first); });
       const PointAnswer<dim, Some> answer = contact::measure<dim, Some>(query, tolerance);
       for (int corner = 0; corner < dim; ++corner) store(answer.on_target[corner], on_target_[corner].data() + first);
+      for (int axis = 0; axis < dim; ++axis) store(answer.offset[axis], offset_[axis].data() + first);
       store(answer.gap, gap_.data() + first);
       store(answer.facing, facing_.data() + first);
       near_ |= bits(answer.near) << first;

@@ -18,7 +18,7 @@ class PointQueries {
   [[nodiscard]] std::size_t count() const { return count_; }
 
   // No more than `most`.
-  void add(const PointQuery<dim, double>& query) {
+  SCREE_INLINE void add(const PointQuery<dim, double>& query) {
     auto* number = asked_.data();
     const auto put = [&](double value) { (*number++)[count_] = value; };
     for_each_number(query, put);
@@ -28,9 +28,16 @@ class PointQueries {
   // Measures them all, see point_touch.h.
   void measure(double tolerance);
 
+  // The semi-spring of a query.
+  [[nodiscard]] Point<dim> point(std::size_t i) const {
+    Point<dim> point;
+    for (int axis = 0; axis < dim; ++axis) point[axis] = asked_[axis][i];
+    return point;
+  }
   [[nodiscard]] PointAnswer<dim, double> answer(std::size_t i) const {
     PointAnswer<dim, double> answer{};
     for (int corner = 0; corner < dim; ++corner) answer.on_target[corner] = on_target_[corner][i];
+    for (int axis = 0; axis < dim; ++axis) answer.offset[axis] = offset_[axis][i];
     answer.gap = gap_[i];
     answer.facing = facing_[i];
     answer.near = (near_ >> i & 1u) != 0;
@@ -57,7 +64,7 @@ class PointQueries {
 
   std::size_t count_ = 0;
   alignas(Octet) std::array<Numbers, numbers> asked_;
-  alignas(Octet) std::array<Numbers, dim> on_target_;
+  alignas(Octet) std::array<Numbers, dim> on_target_, offset_;
   alignas(Octet) Numbers gap_, facing_;
   std::uint64_t near_, on_rim_, apart_;  // a bit of each
 };

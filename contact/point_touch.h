@@ -26,11 +26,12 @@ struct PointQuery {
 template <int dim, class Number>
 struct PointAnswer {
   std::array<Number, dim> on_target;  // weights of the closest point
+  Coordinates<dim, Number> offset;    // from there to the semi-spring
   Number gap;                         // negative inside the target [m]
   Number facing;                      // cosine between the target's normal and the direction of the gap
   MaskOf<Number> near;                // whether they may touch; if not, the rest says nothing
-  MaskOf<Number>
-      on_rim;            // the closest point is on the target's rim: gap and facing are still to be found from the faces around
+  // The closest point is on the target's rim: gap and facing are still to be found from the faces around.
+  MaskOf<Number> on_rim;
   MaskOf<Number> apart;  // far enough from each other for the difference to have a direction
 };
 
@@ -50,6 +51,7 @@ SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& que
   const auto closest = closest_point<dim, Number>(query.corners, query.point);
   answer.on_target = closest.weights;
   const auto offset = minus<dim>(query.point, weighted_point<dim>(query.corners, closest.weights));
+  answer.offset = offset;
   const Number distance = root(dot<dim>(offset, offset));
   const auto nearest = closest_point<dim, Number>(query.corners, query.vertex).weights;
   const auto beside = minus<dim>(query.vertex, weighted_point<dim>(query.corners, nearest));

@@ -11,6 +11,7 @@
 
 #include "contact/choice.h"
 #include "contact/point_queries.h"
+#include "contact/semi_spring.h"
 #include "contact/spring_list.h"
 #include "contact/touch.h"
 #include "engine/base/chunks.h"
@@ -76,7 +77,9 @@ class SpringSearch {
  public:
   SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table, const NearShells& near,
                SpringTargets<dim>& targets)
-      : surface_(surface), options_(options), table_(table), near_(near), targets_(targets), list_(options.indentation) {}
+      : surface_(surface), options_(options), table_(table), near_(near), targets_(targets), list_(options.indentation) {
+    for (int corner = 0; corner < dim; ++corner) weights_[corner] = semi_spring_weights<dim>(corner, options.indentation);
+  }
 
   // No more shells than the list holds.
   void find(std::size_t begin, std::size_t end) {
@@ -158,14 +161,15 @@ class SpringSearch {
     asked.pair.owner = list_.shell_of(possible.spring).face(number / lane_count);
     asked.pair.corner = corners_of_springs<dim>[number];
     asked.pair.target = possible.target;
-    queries_.add(query_of(surface_, options_, asked.pair));
+    queries_.add(query_of<dim>(surface_, weights_[asked.pair.corner], asked.pair));
   }
 
   void touch_asked() {
     queries_.measure(options_.tolerance);
     for (std::size_t k = 0; k < queries_.count(); ++k) {
       const PossibleTouch& possible = possible_[asked_[k].possible];
-      const auto touch = touch_of(surface_, options_, queries_.answer(k), asked_[k].pair, possible.inside);
+      const KnownTarget known{possible.plane, possible.inside};
+      const auto touch = touch_of<dim>(surface_, asked_[k].pair, known, queries_.point(k), queries_.answer(k));
       if (touch) keep(possible, asked_[k].pair.owner, *touch);
     }
     queries_.clear();
@@ -228,6 +232,7 @@ class SpringSearch {
   const ShellTable<dim>& table_;
   const NearShells& near_;
   SpringTargets<dim>& targets_;
+  std::array<std::array<double, dim>, dim> weights_;  // of a face's corners at the semi-spring of each
   List list_;
   VectorWrittenLater<PossibleTouch> possible_;
   std::array<std::uint64_t, List::most_springs> nearest_;

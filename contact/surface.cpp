@@ -146,32 +146,15 @@ bool is_whole(const Surface<dim>& surface, BlockId block) {
   return surface.mesh.blocks[block].elements.size() == 1;
 }
 
-// Of a block of one element, whose faces follow one another, that opposite to a node; `face` is one of the others.
+// At a vertex of a block of one element, whose faces follow one another in the order of the vertices they are opposite to.
 template <int dim>
-FaceId face_opposite(const Surface<dim>& surface, FaceId face, NodeId node) {
-  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
-  const auto& own = surface.faces[face].nodes;
-  std::size_t beyond = 0, opposite = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (std::find(own.begin(), own.end(), nodes[i]) == own.end()) beyond = i;
-    if (nodes[i] == node) opposite = i;
-  }
-  return FaceId{face.index() + opposite - beyond};
-}
-
-// At a node of a block of one element.
-template <int dim>
-Point<dim> node_normal(const Surface<dim>& surface, FaceId face, NodeId node) {
-  const FaceId opposite = face_opposite(surface, face, node);
-  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
-  const std::size_t first =
-      opposite.index() - static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+Point<dim> node_normal(const Surface<dim>& surface, std::size_t first, int vertex) {
   Point<dim> sum = Point<dim>::Zero();
-  for (std::size_t f = first; f <= first + dim; ++f) {
-    if (FaceId{f} == opposite) continue;
-    const auto& corners = surface.faces[FaceId{f}].nodes;
-    sum += weighted_normal(surface, FaceId{f},
-                           static_cast<int>(std::find(corners.begin(), corners.end(), node) - corners.begin()));
+  for (int plane = 0; plane <= dim; ++plane) {
+    if (plane == vertex) continue;
+    const auto& corners = mesh::opposite_corners<dim>[plane];
+    const auto corner = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
+    sum += weighted_normal(surface, FaceId{first + static_cast<std::size_t>(plane)}, static_cast<int>(corner));
   }
   return sum;
 }
@@ -216,20 +199,22 @@ std::vector<std::size_t> block_starts(const mesh::BlockMesh<dim>& mesh, const Ta
 }
 
 template <int dim>
-Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::array<double, dim>& weights) {
-  const auto zero = [](double weight) { return weight == 0; };
-  const auto zeros = std::count_if(weights.begin(), weights.end(), zero);
+Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, int plane, const std::array<double, dim>& weights) {
+  int zeros = 0, some_zero = 0, some_other = 0;
+  for (int i = 0; i < dim; ++i) {
+    zeros += weights[i] == 0 ? 1 : 0;
+    (weights[i] == 0 ? some_zero : some_other) = i;
+  }
   if (zeros == 0) return surface.normals[face];
+  const auto& corners = mesh::opposite_corners<dim>[plane];
+  const bool whole = is_whole(surface, surface.faces[face].block);
+  const std::size_t first = face.index() - static_cast<std::size_t>(plane);  // of a whole block
   if (zeros == dim - 1) {
-    const auto corner = std::find_if_not(weights.begin(), weights.end(), zero) - weights.begin();
-    const NodeId node = surface.faces[face].nodes[corner];
-    return is_whole(surface, surface.faces[face].block) ? node_normal(surface, face, node) : surface.node_normals[node];
+    return whole ? node_normal(surface, first, corners[some_other])
+                 : surface.node_normals[surface.faces[face].nodes[some_other]];
   }
-  const auto opposite = std::find_if(weights.begin(), weights.end(), zero) - weights.begin();
-  if (is_whole(surface, surface.faces[face].block)) {
-    return surface.normals[face] + surface.normals[face_opposite(surface, face, surface.faces[face].nodes[opposite])];
-  }
-  const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(opposite + 1) % 3]];
+  if (whole) return surface.normals[face] + surface.normals[FaceId{first + static_cast<std::size_t>(corners[some_zero])}];
+  const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(some_zero + 1) % 3]];
   return surface.normals[edge.faces[0]] + surface.normals[edge.faces[1]];
 }
 
@@ -252,7 +237,7 @@ bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& po
   template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                      \
   template void add_rims<dim>(Surface<dim>&);                                                                              \
   template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
-  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, const std::array<double, dim>&);                       \
+  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, int, const std::array<double, dim>&);                  \
   template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -66,9 +66,10 @@ Corners<dim> corners_of(const Surface<dim>& surface, FaceId face) {
 
 // A direction that points out of the block at a point of its face given by weights: the face's normal inside it, on an edge
 // the mean of both faces', at a node the angle-weighted mean. With these the sign of (p - closest point) . outwards says
-// whether p is outside, on edges and corners too (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005).
+// whether p is outside, on edges and corners too (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005). `plane` is which vertex of its
+// element the face is opposite to.
 template <int dim>
-Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, const std::array<double, dim>& weights);
+Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, int plane, const std::array<double, dim>& weights);
 
 // Is the point in the block whose face this is? Asks the element behind the face first, which is nearly always the one.
 template <int dim>

@@ -43,51 +43,43 @@ bool comes_near(const Surface<3>& surface, FaceId face, const std::array<Point<3
   return low <= distance && high >= -distance;
 }
 
+// Which vertex of its element a face is opposite to.
 template <int dim>
-Point<dim> spring_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair) {
-  return weighted_point<dim>(corners_of(surface, pair.owner), semi_spring_weights<dim>(pair.corner, options.indentation));
+int plane_of(const Surface<dim>& surface, FaceId face) {
+  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
+  const auto& own = surface.faces[face].nodes;
+  const auto beyond = [&](NodeId node) { return std::find(own.begin(), own.end(), node) == own.end(); };
+  return static_cast<int>(std::find_if(nodes.begin(), nodes.end(), beyond) - nodes.begin());
 }
 
 }  // namespace
 
 template <int dim>
-PointQuery<dim, double> query_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair) {
-  const auto at = [&](NodeId node) { return coordinates<dim>(surface.mesh.nodes[node]); };
-  PointQuery<dim, double> query{coordinates<dim>(spring_of(surface, options, pair)),
-                                at(surface.faces[pair.owner].nodes[pair.corner]),
-                                coordinates<dim>(surface.normals[pair.owner]),
-                                surface.lengths[pair.owner],
-                                {},
-                                coordinates<dim>(surface.normals[pair.target])};
-  for (int i = 0; i < dim; ++i) query.corners[i] = at(surface.faces[pair.target].nodes[i]);
-  return query;
-}
-
-template <int dim>
-std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const ContactOptions& options,
-                                        const PointAnswer<dim, double>& answer, const PointAndFace& pair, bool inside) {
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAndFace& pair, const KnownTarget& known,
+                                        const Point<dim>& point, const PointAnswer<dim, double>& answer) {
   if (!answer.near) return std::nullopt;
   PointTouch<dim> touch{answer.gap, answer.facing, answer.on_target};
   if (answer.on_rim) {
-    const Point<dim> nearest = weighted_point<dim>(corners_of(surface, pair.target), answer.on_target);
-    const Point<dim> offset = spring_of(surface, options, pair) - nearest;
-    const bool behind = outwards_at<dim>(surface, pair.target, answer.on_target).dot(offset) < 0;
+    const Eigen::Map<const Point<dim>> offset(answer.offset.data());
+    const bool behind = outwards_at<dim>(surface, pair.target, known.plane, answer.on_target).dot(offset) < 0;
     touch.gap = behind ? -offset.norm() : offset.norm();
     const Point<dim> direction = offset / touch.gap;
     if (direction.dot(surface.normals[pair.owner]) > -least_facing) return std::nullopt;
     touch.facing = direction.dot(surface.normals[pair.target]);
   }
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
-  const bool asked = touch.gap < 0 && answer.apart && !inside;
-  if (asked && !inside_block<dim>(surface, pair.target, spring_of(surface, options, pair))) return std::nullopt;
+  const bool asked = touch.gap < 0 && answer.apart && !known.inside;
+  if (asked && !inside_block<dim>(surface, pair.target, point)) return std::nullopt;
   return touch;
 }
 
 template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options,
                                           const PointAndFace& pair) {
-  const auto answer = measure(query_of(surface, options, pair), options.tolerance);
-  return touch_of(surface, options, answer, pair, false);
+  const auto query = query_of<dim>(surface, semi_spring_weights<dim>(pair.corner, options.indentation), pair);
+  const KnownTarget known{plane_of(surface, pair.target), false};
+  return touch_of<dim>(surface, pair, known, Eigen::Map<const Point<dim>>(query.point.data()),
+                       measure(query, options.tolerance));
 }
 
 std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
@@ -123,10 +115,9 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   return EdgeTouch{gap, crossing->along_a, crossing->along_b};
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                       \
-  template PointQuery<dim, double> query_of<dim>(const Surface<dim>&, const ContactOptions&, const PointAndFace&);   \
-  template std::optional<PointTouch<dim>> touch_of<dim>(const Surface<dim>&, const ContactOptions&,                  \
-                                                        const PointAnswer<dim, double>&, const PointAndFace&, bool); \
+#define SCREE_INSTANTIATE(dim)                                                                                        \
+  template std::optional<PointTouch<dim>> touch_of<dim>(const Surface<dim>&, const PointAndFace&, const KnownTarget&, \
+                                                        const Point<dim>&, const PointAnswer<dim, double>&);          \
   template std::optional<PointTouch<dim>> touch_face<dim>(const Surface<dim>&, const ContactOptions&, const PointAndFace&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -28,15 +28,36 @@ struct PointAndFace {
 template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair);
 
-// The same in two steps, between which many may be measured at once.
+// The same in two steps, between which many may be measured at once. `weights`: of the owner's corners at the semi-spring.
 template <int dim>
-PointQuery<dim, double> query_of(const Surface<dim>& surface, const ContactOptions& options, const PointAndFace& pair);
+SCREE_INLINE PointQuery<dim, double> query_of(const Surface<dim>& surface, const std::array<double, dim>& weights,
+                                              const PointAndFace& pair) {
+  const auto corners = [&](FaceId face) SCREE_INLINED {
+    const auto& nodes = surface.faces[face].nodes;
+    CornerCoordinates<dim, double> at;
+    for (int i = 0; i < dim; ++i) at[i] = coordinates<dim>(surface.mesh.nodes[nodes[i]]);
+    return at;
+  };
+  const CornerCoordinates<dim, double> own = corners(pair.owner);
+  return {weighted_point<dim, double>(own, weights),
+          own[pair.corner],
+          coordinates<dim>(surface.normals[pair.owner]),
+          surface.lengths[pair.owner],
+          corners(pair.target),
+          coordinates<dim>(surface.normals[pair.target])};
+}
 
-// What is measured of them becomes of their touch: at the target's rim the direction comes from the faces around, and what is
-// behind the target must be in its block. `inside`: that is known to be so.
+// What the search knows of a target and a semi-spring.
+struct KnownTarget {
+  int plane;    // which vertex of its element the target is opposite to
+  bool inside;  // the semi-spring is known to be below the planes of all other faces of that element
+};
+
+// What is measured becomes of their touch: at the target's rim the direction comes from the faces around, and what is behind
+// the target must be in its block. `point`: the semi-spring.
 template <int dim>
-std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const ContactOptions& options,
-                                        const PointAnswer<dim, double>& answer, const PointAndFace& pair, bool inside);
+std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAndFace& pair, const KnownTarget& known,
+                                        const Point<dim>& point, const PointAnswer<dim, double>& answer);
 
 struct EdgeTouch {
   double gap = 0;        // of the semi-edge, negative inside the target [m]
