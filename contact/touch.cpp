@@ -15,19 +15,19 @@ namespace {
 // How far, as a sine, a face may rise above its edge and the edge still count as standing out: packings are flat to that.
 constexpr double flat_sine = 0.0175;  // 1 degree
 
-// Sine by which the face on one side of an edge rises above it in a direction perpendicular to the edge.
-double rise(const Surface<3>& surface, FaceId face, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
+// Does the face on one side of an edge rise above it in a direction, unit and perpendicular to the edge?
+bool rises(const Surface<3>& surface, FaceId face, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
   const Point<3>& start = surface.mesh.nodes[edge.nodes[0]];
   const Eigen::Vector3d along = surface.mesh.nodes[edge.nodes[1]] - start;
-  Eigen::Vector3d inwards = surface.normals[face].cross(along).normalized();
+  Eigen::Vector3d inwards = surface.normals[face].cross(along);
   const Corners<3> corners = corners_of(surface, face);
   if ((corners[0] + corners[1] + corners[2] - 3 * start).dot(inwards) < 0) inwards = -inwards;
-  return inwards.dot(direction);
+  const double rise = inwards.dot(direction);
+  return rise > 0 && rise * rise > flat_sine * flat_sine * inwards.squaredNorm();
 }
 
 bool stands_out(const Surface<3>& surface, const SurfaceEdge& edge, const Eigen::Vector3d& direction) {
-  return rise(surface, edge.faces[0], edge, direction) <= flat_sine &&
-         rise(surface, edge.faces[1], edge, direction) <= flat_sine;
+  return !rises(surface, edge.faces[0], edge, direction) && !rises(surface, edge.faces[1], edge, direction);
 }
 
 // Does what these points span come within a distance of the face's plane?
