@@ -9,7 +9,7 @@ namespace scree::contact {
 namespace {
 
 // Cell edge in extents of a level's largest box. Smaller cells cost more rows, larger ones more tests.
-constexpr double cell_per_extent = 0.5;
+constexpr double cell_per_extent = 1;
 constexpr double slots_per_box = 4;
 
 // So many values tell a median or a quantile well enough.
@@ -51,7 +51,8 @@ BoxGrid<dim>::BoxGrid(std::span<const Aabb<dim>> boxes) {
     members[static_cast<std::size_t>(std::clamp(order, -127.0, 127.0)) + orders / 2].push_back(static_cast<std::uint32_t>(i));
   }
   order_.resize(boxes.size());
-  packed_.resize(boxes.size());
+  packed_.resize(boxes.size() + 1);
+  packed_.back() = {};
   for (auto& level : members) {
     if (!level.empty()) make_level(boxes, std::move(level));
   }
@@ -116,7 +117,7 @@ typename BoxGrid<dim>::Packed BoxGrid<dim>::pack(const Aabb<dim>& box) const {
   for (int i = 0; i < dim; ++i) {
     const double low = box.min()[i] - origin_[i], high = box.max()[i] - origin_[i];
     packed.low[i] = static_cast<float>(low - rounding * std::abs(low));
-    packed.high[i] = static_cast<float>(high + rounding * std::abs(high));
+    packed.below_high[i] = -static_cast<float>(high + rounding * std::abs(high));
   }
   return packed;
 }
@@ -134,41 +135,45 @@ std::size_t BoxGrid<dim>::slot_of(const Level& level, const Aabb<dim>& box) cons
 }
 
 template <int dim>
-void BoxGrid<dim>::find(std::uint32_t place, std::vector<std::uint32_t>& found) const {
+void BoxGrid<dim>::find(std::uint32_t place, Places& found) const {
   found.clear();
   const Packed& box = packed_[place];
-  for (const Level& level : levels_) {
-    if (place < level.first) {
-      look_into(level, box, level.first + level.count, found);
-    } else if (place < level.first + level.count) {
-      look_into(level, box, place, found);
+  widely([&](auto bytes) SCREE_INLINED {
+    for (const Level& level : levels_) {
+      if (place >= level.first + level.count) continue;
+      look_into<LanesIn<bytes>>(level, box, place < level.first ? level.first + level.count : place, found);
     }
-  }
+  });
 }
 
 template <int dim>
-void BoxGrid<dim>::find(const Aabb<dim>& box, std::vector<std::uint32_t>& found) const {
+void BoxGrid<dim>::find(const Aabb<dim>& box, Places& found) const {
   found.clear();
   const Packed packed = pack(box);
-  for (const Level& level : levels_) look_into(level, packed, level.first + level.count, found);
+  widely([&](auto bytes) SCREE_INLINED {
+    for (const Level& level : levels_) look_into<LanesIn<bytes>>(level, packed, level.first + level.count, found);
+  });
 }
 
 template <int dim>
-void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_t before,
-                             std::vector<std::uint32_t>& found) const {
+template <class Wide>
+SCREE_INLINE void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_t before, Places& found) const {
   Cell low, count;
   for (int i = 0; i < dim; ++i) {
     constexpr double rounding = 1 + 1e-6;
     const double corner = box.low[i];
     const double from = corner - level.largest[i] * rounding - 1e-6 * std::abs(corner);
     low[i] = static_cast<std::int64_t>(std::floor(from * level.cells_per_metre[i]));
-    const auto high = static_cast<std::int64_t>(std::floor(box.high[i] * level.cells_per_metre[i]));
+    const auto high = static_cast<std::int64_t>(std::floor(-box.below_high[i] * level.cells_per_metre[i]));
     count[i] = std::min(high - low[i] + 1, std::int64_t{1} << level.bits[i]);
   }
   const std::int64_t row_cells = std::int64_t{1} << level.bits[0];
   const std::int64_t begin = low[0] & (row_cells - 1);
   const std::int64_t end = begin + count[0];
   const std::int64_t planes = dim == 3 ? count[dim - 1] : 1;
+  // What is above these in some lane does not meet the box.
+  const auto limits =
+      in_halves<Wide>([&](int) SCREE_INLINED { return -box.below_high; }, [&](int) SCREE_INLINED { return -box.low; });
   for (std::int64_t z = 0; z < planes; ++z) {
     for (std::int64_t y = 0; y < count[1]; ++y) {
       std::size_t row = static_cast<std::size_t>(low[1] + y) & ((std::size_t{1} << level.bits[1]) - 1);
@@ -176,24 +181,32 @@ void BoxGrid<dim>::look_into(const Level& level, const Packed& box, std::uint32_
         row |= (static_cast<std::size_t>(low[2] + z) & ((std::size_t{1} << level.bits[2]) - 1)) << level.bits[1];
       }
       const std::uint32_t* starts = level.starts.data() + (row << level.bits[0]);
-      test(starts[begin], std::min(starts[std::min(end, row_cells)], before), box, found);
-      if (end > row_cells) test(starts[0], std::min(starts[end - row_cells], before), box, found);
+      test(starts[begin], std::min(starts[std::min(end, row_cells)], before), limits, found);
+      if (end > row_cells) test(starts[0], std::min(starts[end - row_cells], before), limits, found);
     }
   }
 }
 
 // Without a branch for each box, which no one could foretell: a box that does not meet is written over.
 template <int dim>
-void BoxGrid<dim>::test(std::uint32_t from, std::uint32_t to, const Packed& box, std::vector<std::uint32_t>& found) const {
+template <class Wide>
+SCREE_INLINE void BoxGrid<dim>::test(std::uint32_t from, std::uint32_t to, const Wide& limits, Places& found) const {
   if (from >= to) return;
-  std::size_t count = found.size();
-  found.resize(count + (to - from));
-  for (std::uint32_t other = from; other < to; ++other) {
-    const Packed& theirs = packed_[other];
-    found[count] = other;
-    count += bits((theirs.low > box.high) | (box.low > theirs.high)) == 0 ? 1 : 0;
+  constexpr std::uint32_t together = fours_of<Wide> / 2;
+  const std::size_t count = found.size();
+  found.resize(count + (to - from) + together);
+  std::uint32_t* next = found.data() + count;
+  for (std::uint32_t other = from; other < to; other += together) {
+    Wide theirs;
+    __builtin_memcpy(&theirs, &packed_[other], sizeof theirs);
+    const unsigned apart = bits(below(limits, theirs));
+    for_each_constant<together>([&](auto k) SCREE_INLINED {
+      const bool meets = (apart >> 8 * k & 0xffu) == 0, is_asked = other + k < to;
+      *next = other + k;
+      next += static_cast<int>(meets) & static_cast<int>(is_asked);
+    });
   }
-  found.resize(count);
+  found.resize(static_cast<std::size_t>(next - found.data()));
 }
 
 template class BoxGrid<2>;

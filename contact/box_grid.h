@@ -12,11 +12,13 @@
 #include <span>
 #include <vector>
 
-#include "contact/lanes.h"
+#include "contact/lanes_in.h"
 #include "engine/base/geometry.h"
 #include "engine/base/written_later.h"
 
 namespace scree::contact {
+
+using Places = VectorWrittenLater<std::uint32_t>;
 
 template <int dim>
 class BoxGrid {
@@ -24,21 +26,21 @@ class BoxGrid {
   explicit BoxGrid(std::span<const Aabb<dim>> boxes);
 
   // Boxes in the order of their cells: neighbours in space are near in it. All below is told in places of this order.
-  [[nodiscard]] const VectorWrittenLater<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] const Places& order() const { return order_; }
 
   // Leaves in `found` the boxes that meet the one at a place. Of every two that meet, just one finds the other. A few that
   // are a ten-millionth of the scene's size apart are found, too.
-  void find(std::uint32_t place, std::vector<std::uint32_t>& found) const;
+  void find(std::uint32_t place, Places& found) const;
 
   // All that meet any box, likewise.
-  void find(const Aabb<dim>& box, std::vector<std::uint32_t>& found) const;
+  void find(const Aabb<dim>& box, Places& found) const;
 
  private:
   // In single precision, rounded outwards: boxes meet if no low corner is above the other's high one. Lanes beyond the last
-  // axis are 0.
+  // axis are 0. The opposite of the high one, so that one comparison asks for both.
   struct Packed {
     Lanes low{};
-    Lanes high{};
+    Lanes below_high{};
   };
   using Cell = std::array<std::int64_t, dim>;
 
@@ -55,13 +57,15 @@ class BoxGrid {
   void choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members, Level& level) const;
   [[nodiscard]] Packed pack(const Aabb<dim>& box) const;
   [[nodiscard]] std::size_t slot_of(const Level& level, const Aabb<dim>& box) const;
-  void look_into(const Level& level, const Packed& box, std::uint32_t before, std::vector<std::uint32_t>& found) const;
-  void test(std::uint32_t from, std::uint32_t to, const Packed& box, std::vector<std::uint32_t>& found) const;
+  template <class Wide>
+  void look_into(const Level& level, const Packed& box, std::uint32_t before, Places& found) const;
+  template <class Wide>
+  void test(std::uint32_t from, std::uint32_t to, const Wide& limits, Places& found) const;
 
   Point<dim> origin_ = Point<dim>::Zero();
   std::vector<Level> levels_;  // from fine to coarse
-  VectorWrittenLater<std::uint32_t> order_;
-  VectorWrittenLater<Packed> packed_;
+  Places order_;
+  VectorWrittenLater<Packed> packed_;  // and one more, as they are read by twos
 };
 
 }  // namespace scree::contact

@@ -88,7 +88,7 @@ class NearFaces {
 
   // The boxes of other blocks that meet a box.
   [[nodiscard]] std::vector<Aabb<dim>> others_near(BlockId block, const Aabb<dim>& box) const {
-    std::vector<std::uint32_t> found;
+    Places found;
     grid_.find(box, found);
     std::vector<Aabb<dim>> others;
     for (const auto place : found) {

@@ -86,7 +86,7 @@ class NearOne {
   // Of the shells at some places those of another block that no plane parts from the one at `place` by more than what touches
   // may be apart. Without a branch for each, which no one could foretell: one that is parted is written over.
   template <class Wide>
-  SCREE_INLINE void find(const ShellTable<dim>& table, std::uint32_t place, std::vector<std::uint32_t>& places) {
+  SCREE_INLINE void find(const ShellTable<dim>& table, std::uint32_t place, Places& places) {
     const Shell<dim>& own = table.shells[place];
     drop_own_block(table, own.block, places);
     const std::size_t count = places.size();
@@ -142,7 +142,7 @@ class NearOne {
   }
 
  private:
-  static SCREE_INLINE void drop_own_block(const ShellTable<dim>& table, BlockId block, std::vector<std::uint32_t>& places) {
+  static SCREE_INLINE void drop_own_block(const ShellTable<dim>& table, BlockId block, Places& places) {
     std::size_t kept = 0;
     for (const std::uint32_t place : places) {
       places[kept] = place;
@@ -161,7 +161,7 @@ class NearOne {
 template <class Found, int dim, class Visit, class Keep>
 void visit_near(const ShellTable<dim>& table, const Visit& visit, const Keep& keep) {
   for_chunks(table.shells.size(), [&](Chunk chunk) {
-    std::vector<std::uint32_t> places;
+    Places places;
     NearOne<dim> near;
     Found found;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {

@@ -28,7 +28,7 @@ template <int dim>
 void compare(const std::vector<Aabb<dim>>& boxes, std::size_t at_least) {
   const BoxGrid<dim> grid(boxes);
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  std::vector<std::uint32_t> found;
+  Places found;
   for (std::uint32_t place = 0; place < boxes.size(); ++place) {
     grid.find(place, found);
     for (const auto other : found) {
@@ -79,7 +79,7 @@ TEST(BoxGrid, FindsAllThatMeetAnyBox) {
   std::mt19937 random(6);
   const auto boxes = random_boxes<3>(1000, 1, 0.5, random);
   const BoxGrid<3> grid(boxes);
-  std::vector<std::uint32_t> found;
+  Places found;
   for (auto box : random_boxes<3>(100, 1, 5, random)) {
     box.translate(Point<3>(-0.5, 0, 0.3));
     grid.find(box, found);
@@ -103,7 +103,7 @@ TEST(BoxGrid, LooksOnlyAtAHandfulOfBoxesWhateverTheirNumber) {
     boxes.emplace_back(low, low + Point<3>(1, 1, 1));
   }
   const BoxGrid<3> grid(boxes);
-  std::vector<std::uint32_t> found;
+  Places found;
   std::size_t pairs = 0;
   for (std::uint32_t place = 0; place < boxes.size(); ++place) {
     grid.find(place, found);
