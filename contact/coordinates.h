@@ -20,14 +20,15 @@ SCREE_INLINE Coordinates<dim, double> coordinates(const Point<dim>& point) {
   return result;
 }
 
-SCREE_INLINE bool below(double a, double b) {
-  return a < b;
+// 1 or 0, so that & and | are the same for one number and for several.
+SCREE_INLINE int below(double a, double b) {
+  return a < b ? 1 : 0;
 }
-SCREE_INLINE bool at_most(double a, double b) {
-  return a <= b;
+SCREE_INLINE int at_most(double a, double b) {
+  return a <= b ? 1 : 0;
 }
-SCREE_INLINE double chosen(bool first, double a, double b) {
-  return first ? a : b;
+SCREE_INLINE double chosen(int first, double a, double b) {
+  return first != 0 ? a : b;
 }
 SCREE_INLINE double root(double square) {
   return std::sqrt(square);
@@ -71,7 +72,7 @@ SCREE_INLINE Octet root(const Octet& square) {
 }
 #endif
 
-// What a comparison of numbers gives: a bool, all bits of a lane or none, or a bit for each.
+// What a comparison of numbers gives: 1 or 0, all bits of a lane or none, or a bit for each.
 template <class Number>
 using MaskOf = decltype(below(Number{}, Number{}));
 

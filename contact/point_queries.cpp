@@ -12,9 +12,11 @@ SCREE_INLINE std::uint64_t bits(const MaskOf<Quad>& mask) {
   for (int i = 0; i < numbers_in_quad; ++i) found |= static_cast<std::uint64_t>(mask[i]) & 1u << i;
   return found;
 }
+#ifdef SCREE_HAS_AVX2
 SCREE_INLINE std::uint64_t bits(unsigned mask) {
   return mask;
 }
+#endif
 
 }  // namespace
 

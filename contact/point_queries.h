@@ -40,9 +40,9 @@ class PointQueries {
     for (int axis = 0; axis < dim; ++axis) answer.offset[axis] = offset_[axis][i];
     answer.gap = gap_[i];
     answer.facing = facing_[i];
-    answer.near = (near_ >> i & 1u) != 0;
-    answer.on_rim = (on_rim_ >> i & 1u) != 0;
-    answer.apart = (apart_ >> i & 1u) != 0;
+    answer.near = static_cast<int>(near_ >> i & 1u);
+    answer.on_rim = static_cast<int>(on_rim_ >> i & 1u);
+    answer.apart = static_cast<int>(apart_ >> i & 1u);
     return answer;
   }
 
@@ -63,9 +63,9 @@ class PointQueries {
   static constexpr std::size_t numbers = dim * dim + 4 * dim + 1;
 
   std::size_t count_ = 0;
-  alignas(Octet) std::array<Numbers, numbers> asked_;
-  alignas(Octet) std::array<Numbers, dim> on_target_, offset_;
-  alignas(Octet) Numbers gap_, facing_;
+  alignas(sizeof(Octet)) std::array<Numbers, numbers> asked_;
+  alignas(sizeof(Octet)) std::array<Numbers, dim> on_target_, offset_;
+  alignas(sizeof(Octet)) Numbers gap_, facing_;
   std::uint64_t near_, on_rim_, apart_;  // a bit of each
 };
 

@@ -87,19 +87,18 @@ class SpringList {
     View<Wide> view;
     view.heights(owner, other, way, kept_, moved_);
     const float* limits = limits_.data() + shell * springs_of_shell;
-    const auto reach = repeated<Wide>(owner.reach + way.rounding);
     unsigned near = 0;
     for (int part = 0; part < parts<Wide>; ++part) {
       Wide limit;
       __builtin_memcpy(&limit, limits + part * count_of<Wide>, sizeof limit);
-      near |= bits(at_most(least(view.vertex_beyond, view.spring_beyond[part]), reach) &
+      near |= bits(at_most(least(view.vertex_beyond, view.spring_beyond[part]), view.reach) &
                    at_most(view.spring_beyond[part] - way.rounding, limit))
               << part * count_of<Wide>;
     }
     near &= shells_[shell].asked;
     if (near == 0) return;
     fetch(other.first);
-    list(view, owner, other, shell, near, reach, way.rounding, possible);
+    list(view, other, shell, near, possible);
   }
 
  private:
@@ -133,8 +132,12 @@ class SpringList {
     // How far they are beyond any plane.
     Wide vertex_beyond{};
     std::array<Wide, parts<Wide>> spring_beyond{};
+    float rounding;  // of all of these
+    Wide reach;      // the owner's, and this
 
     SCREE_INLINE void heights(const Shell<dim>& owner, const Shell<dim>& other, const Way<dim>& way, float kept, float moved) {
+      rounding = way.rounding;
+      reach = repeated<Wide>(owner.reach + rounding);
       std::array<Wide, dim> at;
       Lanes of_centre = -other.offsets;
       for (int i = 0; i < dim; ++i) {
@@ -173,30 +176,44 @@ class SpringList {
     return planes;
   }
 
+  // The semi-springs that are not below each plane.
   template <class Wide>
-  SCREE_INLINE void list(const View<Wide>& view, const Shell<dim>& owner, const Shell<dim>& other, std::size_t shell,
-                         unsigned near, const Wide& reach, float rounding, VectorWrittenLater<PossibleTouch>& possible) const {
-    const unsigned faces_opposed = opposed<Wide>(owner, other);
-    std::array<unsigned, dim + 1> not_below{};  // semi-springs, of each plane
+  static SCREE_INLINE std::array<unsigned, dim + 1> not_below_planes(const View<Wide>& view) {
+    std::array<unsigned, dim + 1> springs{};
     for (int t = 0; t <= dim; ++t) {
       for (int part = 0; part < parts<Wide>; ++part) {
-        not_below[t] |= bits(at_most(repeated<Wide>(-rounding), view.springs[t][part])) << part * count_of<Wide>;
+        springs[t] |= bits(at_most(repeated<Wide>(-view.rounding), view.springs[t][part])) << part * count_of<Wide>;
       }
     }
+    return springs;
+  }
+
+  // The semi-springs that may be within reach of face t of the other shell, and bounds of how far they all are from it.
+  template <class Wide>
+  static SCREE_INLINE unsigned within_reach(const View<Wide>& view, int t, std::array<float, springs_of_shell>& bounds) {
+    const Wide vertex_away = most(absolute(view.vertices[t]), view.vertex_beyond);
+    unsigned found = 0;
+    for (int part = 0; part < parts<Wide>; ++part) {
+      const Wide spring_away = most(absolute(view.springs[t][part]), view.spring_beyond[part]);
+      found |= bits(at_most(least(vertex_away, spring_away), view.reach)) << part * count_of<Wide>;
+      const Wide bound = most(spring_away - view.rounding, Wide{});
+      __builtin_memcpy(bounds.data() + part * count_of<Wide>, &bound, sizeof bound);
+    }
+    return found;
+  }
+
+  template <class Wide>
+  SCREE_INLINE void list(const View<Wide>& view, const Shell<dim>& other, std::size_t shell, unsigned near,
+                         VectorWrittenLater<PossibleTouch>& possible) const {
+    const unsigned faces_opposed = opposed<Wide>(*shells_[shell].shell, other);
+    const std::array<unsigned, dim + 1> not_below = not_below_planes(view);
     const std::size_t listed = possible.size();
     possible.resize(listed + (dim + 1) * springs_of_shell);
     PossibleTouch* next = possible.data() + listed;
     for_each_constant<dim + 1>([&](auto t) SCREE_INLINED {
       if ((other.faces >> t & 1u) == 0) return;
-      const Wide vertex_away = most(absolute(view.vertices[t]), view.vertex_beyond);
       std::array<float, springs_of_shell> bounds;
-      unsigned found = 0;
-      for (int part = 0; part < parts<Wide>; ++part) {
-        const Wide spring_away = most(absolute(view.springs[t][part]), view.spring_beyond[part]);
-        found |= bits(at_most(least(vertex_away, spring_away), reach)) << part * count_of<Wide>;
-        const Wide bound = most(spring_away - rounding, Wide{});
-        __builtin_memcpy(bounds.data() + part * count_of<Wide>, &bound, sizeof bound);
-      }
+      unsigned found = within_reach<Wide>(view, t, bounds);
       found &= near & fourfold[faces_opposed >> 4 * t & 0xfu];
       if (found == 0) return;
       unsigned outside = 0;
@@ -213,7 +230,7 @@ class SpringList {
 
   float kept_, moved_;  // shares of the vertex and of each corner of its face in a semi-spring
   std::vector<Own> shells_;
-  alignas(WidestLanes) std::array<float, most_springs> limits_;
+  alignas(sizeof(WidestLanes)) std::array<float, most_springs> limits_;
 };
 
 }  // namespace scree::contact

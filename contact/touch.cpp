@@ -57,9 +57,9 @@ int plane_of(const Surface<dim>& surface, FaceId face) {
 template <int dim>
 std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const PointAndFace& pair, const KnownTarget& known,
                                         const Point<dim>& point, const PointAnswer<dim, double>& answer) {
-  if (!answer.near) return std::nullopt;
+  if (answer.near == 0) return std::nullopt;
   PointTouch<dim> touch{answer.gap, answer.facing, answer.on_target};
-  if (answer.on_rim) {
+  if (answer.on_rim != 0) {
     const Eigen::Map<const Point<dim>> offset(answer.offset.data());
     const bool behind = outwards_at<dim>(surface, pair.target, known.plane, answer.on_target).dot(offset) < 0;
     touch.gap = behind ? -offset.norm() : offset.norm();
@@ -68,7 +68,7 @@ std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const Point
     touch.facing = direction.dot(surface.normals[pair.target]);
   }
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
-  const bool asked = touch.gap < 0 && answer.apart && !known.inside;
+  const bool asked = touch.gap < 0 && answer.apart != 0 && !known.inside;
   if (asked && !inside_block<dim>(surface, pair.target, point)) return std::nullopt;
   return touch;
 }
