@@ -103,6 +103,7 @@ class EdgeBounds {
   SCREE_INLINE void may_touch(const SomePairs<Wide>& pairs, TouchingSome& touching) const {
     Crossing<Wide> lines;
     cross_lines(pairs, lines);
+    lines.near &= pairs.asked;
     if (lines.near == 0) return;
     const Wide moved_along = moved_ * lines.square, kept = kept_ * lines.square;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -223,10 +224,8 @@ class Fours {
 
   SCREE_INLINE void keep(const TouchingSome& found, const SomePairs<Wide>& pairs) {
     for (std::size_t k = 0; k < 2; ++k) {
-      keep(found.of_first[k] & pairs.asked, pairs,
-           [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_first[k]; });
-      keep(found.of_second[k] & pairs.asked, pairs,
-           [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_second[k]; });
+      keep(found.of_first[k], pairs, [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_first[k]; });
+      keep(found.of_second[k], pairs, [&](TouchingEdges& of) SCREE_INLINED -> EdgePairs& { return of.of_second[k]; });
     }
   }
 
