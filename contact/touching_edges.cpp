@@ -9,10 +9,6 @@ namespace scree::contact {
 
 namespace {
 
-SCREE_INLINE LanePoints<3> scaled(const LanePoints<3>& points, float unit) {
-  return {unit * points[0], unit * points[1], unit * points[2]};
-}
-
 // The vertices that are asked of two edges, as places in the words below.
 enum Corner { start, end, left, right, of_second };  // left and right: the vertices beside the edge
 
@@ -57,24 +53,15 @@ struct TouchingSome {
   [[nodiscard]] bool any() const { return (of_first[0] | of_first[1] | of_second[0] | of_second[1]) != 0; }
 };
 
-// Of two shells what is asked of their edges. Lengths are in radii of the first, so that their products keep within the range
-// of single precision.
-struct Scaled {
-  Scaled() = default;
-  SCREE_INLINE Scaled(const Shell<3>& a, const Shell<3>& b, float moved) {
-    const Way<3> way(a, b);
-    const float unit = 1 / a.radius;
-    distance = unit * slack(a, b);
-    off = 2 * unit * way.rounding;
-    aside = 2 * moved * unit * std::max(a.radius, b.radius);
-    first = scaled(a.at, unit);
-    second = scaled(vertices_from(b, way), unit);
-  }
+// Two shells whose edges are asked.
+struct ShellsAsked {
+  ShellsAsked() = default;
+  SCREE_INLINE ShellsAsked(const Shell<3>& a, const Shell<3>& b) : first(&a), second(&b), way(a, b), distance(slack(a, b)) {}
 
-  float distance;  // between the lines of edges that touch, at most
-  float off;       // of a length, by rounding
-  float aside;     // the third corner of a face, no further from an edge than two radii, moves its semi-edges by no more
-  LanePoints<3> first, second;  // their vertices as seen from the first
+  const Shell<3>* first = nullptr;
+  const Shell<3>* second = nullptr;
+  Way<3> way;
+  float distance = 0;  // between edges that touch, at most [m]
 };
 
 // The semi-edges beside the edges of as many times two shells as there are fours of lanes, some pairs of edges at a time.
@@ -83,17 +70,20 @@ class EdgeBounds {
   using Points = Coordinates<3, Wide>;
 
  public:
-  using Fours = std::array<Scaled, fours_of<Wide>>;
+  using Fours = std::array<ShellsAsked, fours_of<Wide>>;
 
-  SCREE_INLINE EdgeBounds(const Fours& shells, float kept, float moved)
-      : distance_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.distance); })),
-        off_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.off); })),
-        aside_(of_fours(shells, [](const Scaled& of) SCREE_INLINED { return all_lanes(of.aside); })),
-        kept_(kept),
-        moved_(moved) {
+  // Lengths are in radii of the first, so that their products keep within the range of single precision.
+  SCREE_INLINE EdgeBounds(const Fours& shells, float kept, float moved) : kept_(kept), moved_(moved) {
+    const Wide radius = numbers(shells, [](const ShellsAsked& of) SCREE_INLINED { return of.first->radius; });
+    const Wide unit = 1 / radius;
+    distance_ = unit * numbers(shells, [](const ShellsAsked& of) SCREE_INLINED { return of.distance; });
+    off_ = 2 * unit * numbers(shells, [](const ShellsAsked& of) SCREE_INLINED { return of.way.rounding; });
+    aside_ =
+        2 * moved * unit * most(radius, numbers(shells, [](const ShellsAsked& of) SCREE_INLINED { return of.second->radius; }));
     for (int i = 0; i < 3; ++i) {
-      first_[i] = of_fours(shells, [&](const Scaled& of) SCREE_INLINED { return of.first[i]; });
-      second_[i] = of_fours(shells, [&](const Scaled& of) SCREE_INLINED { return of.second[i]; });
+      const Wide way = numbers(shells, [&](const ShellsAsked& of) SCREE_INLINED { return of.way.axes[i]; });
+      first_[i] = unit * lanes(shells, [&](const ShellsAsked& of) SCREE_INLINED { return of.first->at[i]; });
+      second_[i] = unit * (lanes(shells, [&](const ShellsAsked& of) SCREE_INLINED { return of.second->at[i]; }) + way);
     }
   }
 
@@ -123,10 +113,18 @@ class EdgeBounds {
   }
 
  private:
-  static SCREE_INLINE Wide of_fours(const Fours& shells, const auto& number) {
-    std::array<Lanes, fours_of<Wide>> fours;
-    for (int i = 0; i < fours_of<Wide>; ++i) fours[i] = number(shells[i]);
-    return in_a_row<Wide>(fours);
+  // Of each shells one number, or four lanes.
+  static SCREE_INLINE Wide numbers(const Fours& shells, const auto& number) {
+    std::array<float, fours_of<Wide>> all;
+    for (int i = 0; i < fours_of<Wide>; ++i) all[i] = number(shells[i]);
+    Wide result;
+    put_in_fours(all, result);
+    return result;
+  }
+  static SCREE_INLINE Wide lanes(const Fours& shells, const auto& four) {
+    std::array<Lanes, fours_of<Wide>> all;
+    for (int i = 0; i < fours_of<Wide>; ++i) all[i] = four(shells[i]);
+    return in_a_row<Wide>(all);
   }
 
   // Are both no more than 0? One comparison at the end takes less time than one of each, one after the other.
@@ -166,9 +164,11 @@ class EdgeBounds {
                                   beyond_ends<Wide>(lines.along_second, lines.square) - (lines.off_second + aside * a_length)));
   }
 
-  Wide distance_, off_, aside_;
-  float kept_;             // length of a semi-edge, over that of its edge
-  float moved_;            // share of each corner of its face in a semi-spring
+  Wide distance_;  // between the lines of edges that touch, at most
+  Wide off_;       // of a length, by rounding
+  Wide aside_;     // the third corner of a face, no further from an edge than two radii, moves its semi-edges by no more
+  float kept_;     // length of a semi-edge, over that of its edge
+  float moved_;    // share of each corner of its face in a semi-spring
   Points first_, second_;  // vertices
 };
 
@@ -178,6 +178,8 @@ class Fours {
  public:
   SCREE_INLINE Fours(const std::vector<ShellEdges>& shells, float indentation, std::vector<TouchingEdges>& touching)
       : shells_(shells), kept_(1 - indentation), moved_(indentation / 3), touching_(touching) {
+    // In every four some shells, even if there are fewer.
+    if (!shells.empty()) asked_.fill(ShellsAsked(*shells[0].first, *shells[0].second));
     for (int i = 0; i < 6; ++i) vertices_[i] = vertices_of_edges[i];
     for (int i = 0; i < count_of<Wide>; ++i)
       of_fours_[i] = static_cast<int>(static_cast<unsigned>(i / lane_count) * 0x44444444u);
@@ -189,7 +191,7 @@ class Fours {
     for (int four = 0; four < count; ++four) {
       if (left_[four] == 0 && next_ != shells_.size()) {
         const auto& [first, second, edges] = shells_[next_];
-        scaled_[four] = Scaled(*first, *second, moved_);
+        asked_[four] = ShellsAsked(*first, *second);
         left_[four] = edges;
         at_[four] = next_++;
       }
@@ -198,7 +200,7 @@ class Fours {
     return any != 0;
   }
 
-  [[nodiscard]] SCREE_INLINE EdgeBounds<Wide> bounds() const { return {scaled_, kept_, moved_}; }
+  [[nodiscard]] SCREE_INLINE EdgeBounds<Wide> bounds() const { return {asked_, kept_, moved_}; }
 
   // Takes some pairs from each four; lanes without one are of no matter.
   SCREE_INLINE void take(SomePairs<Wide>& pairs) {
@@ -246,7 +248,7 @@ class Fours {
   std::size_t next_ = 0;
   std::array<std::size_t, count> at_{};
   std::array<EdgePairs, count> left_{};
-  std::array<Scaled, count> scaled_{};
+  std::array<ShellsAsked, count> asked_{};
   PlacesIn<Wide> vertices_{};
   PlacesIn<Wide> of_fours_;  // added to each vertex of their lanes
 };
