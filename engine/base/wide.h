@@ -21,6 +21,22 @@ namespace scree {
 template <int count>
 using VectorBytes = std::integral_constant<int, count>;
 
+enum class Instructions { common, avx2, avx512 };
+
+inline Instructions best_instructions() {
+#ifdef SCREE_HAS_AVX2
+  const bool avx2 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 &&
+                    __builtin_cpu_supports("bmi2") != 0 && __builtin_cpu_supports("popcnt") != 0;
+  const bool avx512 = __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+                      __builtin_cpu_supports("avx512vl") != 0;
+  if (avx2) return avx512 ? Instructions::avx512 : Instructions::avx2;
+#endif
+  return Instructions::common;
+}
+
+// The best there are; tests ask for others.
+inline Instructions instructions_in_use = best_instructions();
+
 #ifdef SCREE_HAS_AVX2
 template <class Body>
 __attribute__((target("avx2,bmi,bmi2,popcnt"))) void with_avx2(const Body& body) {
@@ -33,15 +49,6 @@ __attribute__((target("avx2,bmi,bmi2,popcnt,avx512f,avx512bw,avx512dq,avx512vl,p
     const Body& body) {
   body(VectorBytes<64>{});
 }
-
-inline bool has_avx2() {
-  return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0 &&
-         __builtin_cpu_supports("popcnt") != 0;
-}
-inline bool has_avx512() {
-  return has_avx2() && __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-         __builtin_cpu_supports("avx512vl") != 0;
-}
 #endif
 
 // Calls body(VectorBytes<...>()), a lambda that is SCREE_INLINED, with wider instructions if there are any. Unlike a function
@@ -49,14 +56,8 @@ inline bool has_avx512() {
 template <class Body>
 void widely(const Body& body) {
 #ifdef SCREE_HAS_AVX2
-  if (has_avx512()) {
-    with_avx512(body);
-    return;
-  }
-  if (has_avx2()) {
-    with_avx2(body);
-    return;
-  }
+  if (instructions_in_use == Instructions::avx512) return with_avx512(body);
+  if (instructions_in_use == Instructions::avx2) return with_avx2(body);
 #endif
   body(VectorBytes<32>{});
 }

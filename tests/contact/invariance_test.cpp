@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/threads.h"
+#include "engine/base/wide.h"
 #include "tests/contact/builders.h"
 
 namespace scree::contact {
@@ -81,6 +82,41 @@ void move() {
   expect_same<dim>(before, plain<dim>(each_its_own<dim>(simplices), options));
 }
 
+template <int dim>
+void expect_equal(const std::vector<ContactSet<dim>>& sets) {
+  for (const auto& set : sets) {
+    ASSERT_EQ(set.contacts.size(), sets[0].contacts.size());
+    for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+      const auto &one = sets[0].contacts[i], &other = set.contacts[i];
+      EXPECT_EQ(one.kind, other.kind);
+      EXPECT_EQ(one.owner, other.owner);
+      EXPECT_EQ(one.target, other.target);
+      EXPECT_EQ(one.on_target.weights, other.on_target.weights);
+      EXPECT_EQ(one.area, other.area);
+      EXPECT_EQ(one.gap, other.gap);
+    }
+  }
+}
+
+template <int dim>
+void change_instructions() {
+  const Instructions best = instructions_in_use;
+  std::mt19937 random(31);
+  const auto mesh = each_its_own<dim>(random_simplices<dim>(1000, dim == 2 ? 4 : 2.8, 0.4, random));
+  for (const Model model : {Model::semi_spring, Model::overlap}) {
+    ContactOptions options{0.05, 0.1};
+    options.model = model;
+    std::vector<ContactSet<dim>> sets;
+    for (int i = 0; i <= static_cast<int>(best); ++i) {
+      instructions_in_use = static_cast<Instructions>(i);
+      sets.push_back(find_contacts<dim>(mesh, options));
+    }
+    instructions_in_use = best;
+    ASSERT_GT(sets[0].contacts.size(), model == Model::semi_spring ? 300 : 3);
+    expect_equal(sets);
+  }
+}
+
 TEST(ContactSet, DoesNotDependOnTheNumberingOfBlocksAndNodes) {
   renumber<2>();
   renumber<3>();
@@ -104,18 +140,13 @@ TEST(FindContacts, DoNotDependOnTheNumberOfThreads) {
     }
     use_threads(available_processors());
     ASSERT_GT(sets[0].contacts.size(), model == Model::semi_spring ? 1000 : 10);
-    for (const auto& set : sets) {
-      ASSERT_EQ(set.contacts.size(), sets[0].contacts.size());
-      for (std::size_t i = 0; i < set.contacts.size(); ++i) {
-        const auto &one = sets[0].contacts[i], &other = set.contacts[i];
-        EXPECT_EQ(one.owner, other.owner);
-        EXPECT_EQ(one.target, other.target);
-        EXPECT_EQ(one.on_target.weights, other.on_target.weights);
-        EXPECT_EQ(one.area, other.area);
-        EXPECT_EQ(one.gap, other.gap);
-      }
-    }
+    expect_equal(sets);
   }
+}
+
+TEST(FindContacts, DoNotDependOnTheInstructionsOfTheProcessor) {
+  change_instructions<2>();
+  change_instructions<3>();
 }
 
 }  // namespace
