@@ -127,8 +127,9 @@ class NearOne {
     for (std::size_t i = 0; i < count_; i += Pairs::most) {
       Pairs pairs(place, table.shells[place]);
       pairs.count = static_cast<int>(std::min<std::size_t>(Pairs::most, count_ - i));
-      for (int k = 0; k < Pairs::most; ++k)
+      for (int k = 0; k < Pairs::most; ++k) {
         pairs.others[k] = &found_[i + static_cast<std::size_t>(std::min(k, pairs.count - 1))];
+      }
       for (int v = 0; v <= dim; ++v) {
         std::array<WideLanes, Pairs::most> eights;
         for (int k = 0; k < Pairs::most; ++k) __builtin_memcpy(&eights[k], &pairs.others[k]->heights[v], sizeof(WideLanes));

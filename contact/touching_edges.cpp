@@ -181,8 +181,9 @@ class Fours {
     // In every four some shells, even if there are fewer.
     if (!shells.empty()) asked_.fill(ShellsAsked(*shells[0].first, *shells[0].second));
     for (int i = 0; i < 6; ++i) vertices_[i] = vertices_of_edges[i];
-    for (int i = 0; i < count_of<Wide>; ++i)
+    for (int i = 0; i < count_of<Wide>; ++i) {
       of_fours_[i] = static_cast<int>(static_cast<unsigned>(i / lane_count) * 0x44444444u);
+    }
   }
 
   // Fills fours that have nothing left. False if there is nothing in any.
