@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "contact/lanes_in.h"
+
 namespace scree::contact {
 
 namespace {

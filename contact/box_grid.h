@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/lanes_in.h"
+#include "contact/lanes.h"
 #include "engine/base/geometry.h"
 #include "engine/base/written_later.h"
 

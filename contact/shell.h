@@ -65,14 +65,6 @@ float slack(const Shell<dim>& a, const Shell<dim>& b) {
   return std::max(a.reach + a.shift, b.reach + b.shift);
 }
 
-// The vertices of the second shell as seen from the first.
-template <int dim>
-LanePoints<dim> vertices_from(const Shell<dim>& second, const Way<dim>& way) {
-  LanePoints<dim> points = second.at;
-  for (int i = 0; i < dim; ++i) points[i] += way.axes[i];
-  return points;
-}
-
 // How the search looks at a face: how far it reaches, in characteristic lengths, and how far its semi-springs are moved.
 struct ShellOptions {
   double tolerance = 0;
