@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "contact/lanes_in.h"
+#include "engine/base/chunks.h"
+#include "engine/base/grouped.h"
 
 namespace scree::contact {
 
@@ -17,13 +19,29 @@ constexpr double slots_per_box = 4;
 // So many values tell a median or a quantile well enough.
 constexpr std::size_t sample_size = 1024;
 
+// value(i) of some of [0, count).
 template <class Value>
 std::vector<double> sample(std::size_t count, const Value& value) {
   std::vector<double> values;
   const std::size_t stride = std::max<std::size_t>(1, count / sample_size);
   for (std::size_t i = 0; i < count; i += stride) values.push_back(value(i));
-  std::sort(values.begin(), values.end());
   return values;
+}
+
+// The one that so many others are below.
+double ranked(std::vector<double>& values, std::size_t below) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(below), values.end());
+  return values[below];
+}
+
+// Of what of(chunk) gives for every chunk of [0, count) the sum by join(sum, one), in order.
+template <class Result, class Of, class Join>
+Result over_chunks(std::size_t count, const Of& of, const Join& join) {
+  std::vector<Result> parts(chunk_count(count));
+  for_chunks(count, [&](Chunk chunk) { parts[chunk.number] = of(chunk); });
+  Result all = parts[0];
+  for (const Result& part : parts) join(all, part);
+  return all;
 }
 
 double power_of_two(double at_least) {
@@ -40,51 +58,69 @@ double size_of(const Aabb<dim>& box) {
 template <int dim>
 BoxGrid<dim>::BoxGrid(std::span<const Aabb<dim>> boxes) {
   if (boxes.empty()) return;
-  Aabb<dim> all;
-  for (const auto& box : boxes) all.extend(box);
+  const auto all = over_chunks<Aabb<dim>>(
+      boxes.size(),
+      [&](Chunk chunk) {
+        Aabb<dim> some;
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) some.extend(boxes[i]);
+        return some;
+      },
+      [](Aabb<dim>& sum, const Aabb<dim>& one) { sum.extend(one); });
   origin_ = all.min();
-  const auto sizes = sample(boxes.size(), [&](std::size_t i) { return size_of<dim>(boxes[i]); });
-  const double median = sizes[sizes.size() / 2];
-  // The middle of a level is a factor two either way from its ends, so that one mesh size falls into one level.
-  constexpr int orders = 256;
-  std::array<std::vector<std::uint32_t>, orders> members;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double order = std::round(0.5 * std::log2(size_of<dim>(boxes[i]) / median));
-    members[static_cast<std::size_t>(std::clamp(order, -127.0, 127.0)) + orders / 2].push_back(static_cast<std::uint32_t>(i));
-  }
   order_.resize(boxes.size());
   packed_.resize(boxes.size() + 1);
   packed_.back() = {};
-  for (auto& level : members) {
-    if (!level.empty()) make_level(boxes, std::move(level));
+  for (const auto& members : by_size(boxes)) {
+    if (!members.empty()) make_level(boxes, members);
   }
 }
 
+// The boxes of each level.
 template <int dim>
-void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, std::vector<std::uint32_t> members) {
+std::vector<std::vector<std::uint32_t>> BoxGrid<dim>::by_size(std::span<const Aabb<dim>> boxes) {
+  auto sizes = sample(boxes.size(), [&](std::size_t i) { return size_of<dim>(boxes[i]); });
+  const double median = ranked(sizes, sizes.size() / 2);
+  // The middle of a level is a factor two either way from its ends, so that one mesh size falls into one level.
+  constexpr int levels = 256;
+  std::vector<std::uint8_t> level(boxes.size());
+  for_chunks(boxes.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const double order = std::round(0.5 * std::log2(size_of<dim>(boxes[i]) / median));
+      level[i] = static_cast<std::uint8_t>(std::clamp(order, -127.0, 127.0) + levels / 2);
+    }
+  });
+  std::vector<std::vector<std::uint32_t>> members(levels);
+  for (std::size_t i = 0; i < boxes.size(); ++i) members[level[i]].push_back(static_cast<std::uint32_t>(i));
+  return members;
+}
+
+template <int dim>
+void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members) {
   Level level;
   level.first = levels_.empty() ? 0 : levels_.back().first + levels_.back().count;
   level.count = static_cast<std::uint32_t>(members.size());
   choose_cells(boxes, members, level);
   int bits = 0;
   for (const int b : level.bits) bits += b;
-  level.starts.assign((std::size_t{1} << bits) + 1, 0);
-  std::vector<std::uint32_t> slots;
-  slots.reserve(members.size());
-  for (const auto i : members) {
-    slots.push_back(static_cast<std::uint32_t>(slot_of(level, boxes[i])));
-    ++level.starts[slots.back() + 1];
+  VectorWrittenLater<std::uint32_t> slots(members.size());
+  for_chunks(members.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) slots[i] = slot_of(level, boxes[members[i]]);
+  });
+  auto sorted = grouped<std::uint32_t, std::uint32_t>(
+      chunk_count(members.size()), std::size_t{1} << bits, [&](std::size_t part, const auto& visit) {
+        const Chunk chunk = chunk_of(members.size(), part);
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) visit(slots[i], members[i]);
+      });
+  for_chunks(members.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      order_[level.first + i] = sorted.values[i];
+      packed_[level.first + i] = pack(boxes[sorted.values[i]]);
+    }
+  });
+  level.starts = std::move(sorted.begin);
+  if (level.first != 0) {
+    for (std::uint32_t& start : level.starts) start += level.first;
   }
-  level.starts[0] = level.first;
-  for (std::size_t slot = 1; slot < level.starts.size(); ++slot) level.starts[slot] += level.starts[slot - 1];
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const std::uint32_t place = level.starts[slots[i]]++;
-    order_[place] = members[i];
-    packed_[place] = pack(boxes[members[i]]);
-  }
-  // Each start has moved to its slot's end.
-  for (std::size_t slot = level.starts.size() - 1; slot > 0; --slot) level.starts[slot] = level.starts[slot - 1];
-  level.starts[0] = level.first;
   levels_.push_back(std::move(level));
 }
 
@@ -92,11 +128,20 @@ void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, std::vector<std:
 template <int dim>
 void BoxGrid<dim>::choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members,
                                 Level& level) const {
+  const Point<dim> largest = over_chunks<Point<dim>>(
+      members.size(),
+      [&](Chunk chunk) {
+        Point<dim> some = Point<dim>::Zero();
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) some = some.cwiseMax(boxes[members[i]].sizes());
+        return some;
+      },
+      [](Point<dim>& sum, const Point<dim>& one) { sum = sum.cwiseMax(one).eval(); });
   std::array<double, dim> cells;
   for (int i = 0; i < dim; ++i) {
-    for (const auto m : members) level.largest[i] = std::max(level.largest[i], boxes[m].sizes()[i]);
-    const auto lows = sample(members.size(), [&](std::size_t m) { return boxes[members[m]].min()[i]; });
-    const double extent = lows[lows.size() - 1 - lows.size() / 100] - lows[lows.size() / 100];
+    level.largest[i] = largest[i];
+    auto lows = sample(members.size(), [&](std::size_t m) { return boxes[members[m]].min()[i]; });
+    const std::size_t few = lows.size() / 100;
+    const double extent = ranked(lows, lows.size() - 1 - few) - ranked(lows, few);
     // A flat packing has no extent across.
     const double edge = std::max({cell_per_extent * level.largest[i], 1e-6 * extent, 1e-300});
     level.cells_per_metre[i] = 1 / edge;
@@ -125,7 +170,7 @@ typename BoxGrid<dim>::Packed BoxGrid<dim>::pack(const Aabb<dim>& box) const {
 }
 
 template <int dim>
-std::size_t BoxGrid<dim>::slot_of(const Level& level, const Aabb<dim>& box) const {
+std::uint32_t BoxGrid<dim>::slot_of(const Level& level, const Aabb<dim>& box) const {
   // From the packed corner, as in look_into.
   const Packed packed = pack(box);
   std::size_t slot = 0;
@@ -133,7 +178,7 @@ std::size_t BoxGrid<dim>::slot_of(const Level& level, const Aabb<dim>& box) cons
     const auto cell = static_cast<std::int64_t>(std::floor(packed.low[i] * level.cells_per_metre[i]));
     slot = slot << level.bits[i] | (static_cast<std::size_t>(cell) & ((std::size_t{1} << level.bits[i]) - 1));
   }
-  return slot;
+  return static_cast<std::uint32_t>(slot);
 }
 
 template <int dim>

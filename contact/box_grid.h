@@ -53,10 +53,11 @@ class BoxGrid {
     LargeVector<std::uint32_t> starts;  // of each slot, as places
   };
 
-  void make_level(std::span<const Aabb<dim>> boxes, std::vector<std::uint32_t> members);
+  static std::vector<std::vector<std::uint32_t>> by_size(std::span<const Aabb<dim>> boxes);
+  void make_level(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members);
   void choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members, Level& level) const;
   [[nodiscard]] Packed pack(const Aabb<dim>& box) const;
-  [[nodiscard]] std::size_t slot_of(const Level& level, const Aabb<dim>& box) const;
+  [[nodiscard]] std::uint32_t slot_of(const Level& level, const Aabb<dim>& box) const;
   template <class Wide>
   void look_into(const Level& level, const Packed& box, std::uint32_t before, Places& found) const;
   template <class Wide>

@@ -10,6 +10,8 @@
 #include "contact/choice.h"
 #include "contact/edge_bounds.h"
 #include "contact/tetrahedron.h"
+#include "engine/base/collected.h"
+#include "engine/base/grouped.h"
 
 namespace scree::contact {
 
@@ -158,6 +160,28 @@ class Asking {
   std::vector<Possible> possible_;
 };
 
+// What each semi-edge takes of those that it touches, in the order of the semi-edges.
+std::vector<TakenEdge> taken_of(const Surface<3>& surface, const std::vector<std::vector<Touching>>& parts) {
+  const auto by_face = grouped<Touching>(parts.size(), surface.faces.size(), [&](std::size_t part, const auto& visit) {
+    for (const Touching& touching : parts[part]) visit(touching.semi_edge / 3, touching);
+  });
+  return collected<std::vector<TakenEdge>>(surface.faces.size(), [&](Chunk chunk, std::vector<TakenEdge>& taken) {
+    std::vector<Touching> candidates;
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+      if (by_face.begin[f] == by_face.begin[f + 1]) continue;
+      for (int side = 0; side < 3; ++side) {
+        const auto semi_edge = static_cast<std::uint32_t>(f * 3 + static_cast<std::size_t>(side));
+        candidates.clear();
+        for (std::size_t i = by_face.begin[f]; i < by_face.begin[f + 1]; ++i) {
+          if (by_face.values[i].semi_edge == semi_edge) candidates.push_back(by_face.values[i]);
+        }
+        const Touching* best = best_of(candidates, equal_distance * surface.lengths[FaceId{f}]);
+        if (best != nullptr) taken.push_back({semi_edge, best->target, best->touch});
+      }
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const ContactOptions& options, const ShellTable<3>& table,
@@ -175,19 +199,7 @@ std::vector<TakenEdge> find_edge_targets(const Surface<3>& surface, const Contac
     asking.finish();
   }
   near.clear();
-  std::vector<Touching> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end(), [](const Touching& a, const Touching& b) { return a.semi_edge < b.semi_edge; });
-  std::vector<TakenEdge> taken;
-  std::vector<Touching> candidates;
-  for (std::size_t i = 0; i < all.size();) {
-    const std::uint32_t semi_edge = all[i].semi_edge;
-    candidates.clear();
-    for (; i < all.size() && all[i].semi_edge == semi_edge; ++i) candidates.push_back(all[i]);
-    const Touching* best = best_of(candidates, equal_distance * surface.lengths[FaceId{semi_edge / 3}]);
-    taken.push_back({semi_edge, best->target, best->touch});
-  }
-  return taken;
+  return taken_of(surface, parts);
 }
 
 }  // namespace scree::contact

@@ -5,6 +5,7 @@
 
 #include "contact/box_grid.h"
 #include "engine/base/chunks.h"
+#include "engine/base/collected.h"
 
 namespace scree::contact {
 
@@ -59,7 +60,9 @@ class NearFaces {
     std::vector<Aabb<dim>> boxes(mesh_.blocks.size());
     for_chunks(chunks_by_size(starts_, chunk_size), [&](Chunk blocks) {
       for (std::size_t block = blocks.begin; block < blocks.end; ++block) {
-        for_each_element(BlockId{block}, [&](ElementId e) { boxes[block].extend(reached_by(mesh_, e, options_)); });
+        Aabb<dim> box;  // not in its place, beside which another thread may write
+        for_each_element(BlockId{block}, [&](ElementId e) { box.extend(reached_by(mesh_, e, options_)); });
+        boxes[block] = box;
       }
     });
     return boxes;
@@ -113,12 +116,12 @@ Table<FaceId, mesh::Face<dim>> near_faces(const mesh::BlockMesh<dim>& mesh, Tabl
                                           const ShellOptions& options) {
   if (mesh.blocks.size() == mesh.elements.size()) return faces;
   const NearFaces<dim> near(mesh, faces, options);
-  Table<FaceId, mesh::Face<dim>> kept;
-  kept.reserve(faces.size());
-  for (const auto& face : faces) {
-    if (near.is_near(face)) kept.push_back(face);
-  }
-  return kept;
+  return Table<FaceId, mesh::Face<dim>>(
+      collected<std::vector<mesh::Face<dim>>>(faces.size(), [&](Chunk chunk, std::vector<mesh::Face<dim>>& kept) {
+        for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
+          if (near.is_near(faces[FaceId{f}])) kept.push_back(faces[FaceId{f}]);
+        }
+      }));
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                         \

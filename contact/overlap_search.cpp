@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
 #include "contact/near_faces.h"
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
+#include "engine/base/collected.h"
+#include "engine/base/grouped.h"
 #include "engine/base/parts.h"
 
 namespace scree::contact {
@@ -67,25 +68,15 @@ SCREE_INLINE void add_faces(const ShellPairs<dim, Wide>& pairs, const auto& want
   });
 }
 
-// Pairs by their first face.
-struct OrderedPairs {
-  LargeVector<std::size_t> begin;     // of each face's pairs, and the end
-  VectorWrittenLater<FaceId> second;  // ascending for each face
-};
+// The second faces of pairs, by the first, ascending.
+using OrderedPairs = Grouped<FaceId, std::size_t>;
 
-// In the order of their faces, which takes no sorting of them all: each is put where its first face's are, and those are few.
+// In the order of their faces, which takes no sorting of them all: those of a face are few.
 OrderedPairs ordered(const Parts<FacePairs::value_type>& parts, std::size_t faces) {
-  OrderedPairs pairs{LargeVector<std::size_t>(faces + 2, 0), {}};
-  for (const auto& part : parts) {
-    for (const auto& pair : part) ++pairs.begin[pair.first.index() + 2];
-  }
-  std::partial_sum(pairs.begin.begin(), pairs.begin.end(), pairs.begin.begin());
-  pairs.second.resize(pairs.begin.back());
-  for (const auto& part : parts) {
-    for (const auto& [first, second] : part) pairs.second[pairs.begin[first.index() + 1]++] = second;
-  }
-  pairs.begin.pop_back();
-  const auto place = [&](std::size_t at) { return pairs.second.begin() + static_cast<std::ptrdiff_t>(at); };
+  auto pairs = grouped<FaceId>(parts.count(), faces, [&](std::size_t part, const auto& visit) {
+    for (const auto& [first, second] : parts[part]) visit(static_cast<std::uint32_t>(first.value()), second);
+  });
+  const auto place = [&](std::size_t at) { return pairs.values.begin() + static_cast<std::ptrdiff_t>(at); };
   for_chunks(faces, [&](Chunk chunk) {
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) std::sort(place(pairs.begin[f]), place(pairs.begin[f + 1]));
   });
@@ -106,34 +97,6 @@ OrderedPairs near_pairs(const Surface<dim>& surface, double tolerance, const Wan
       },
       [&](std::size_t chunk, const FacePairs& pairs) { found.put(chunk, pairs); });
   return ordered(found, surface.faces.size());
-}
-
-// What work(chunk, into) appends for every chunk of [0, count), in order. On all threads, some chunks at a time: what they give
-// is copied while it is in the cache, and its memory is used again.
-template <class Items, class Work>
-Items collected(std::size_t count, const Work& work) {
-  constexpr std::size_t group = 64 * chunk_size;
-  Items items;
-  std::vector<std::vector<typename Items::value_type>> parts(chunk_count(group));
-  std::vector<std::size_t> ends(parts.size());
-  for (std::size_t from = 0; from < count; from += group) {
-    const std::size_t faces = std::min(group, count - from);
-    for_chunks(faces, [&](Chunk chunk) {
-      parts[chunk.number].clear();
-      work(Chunk{chunk.number, from + chunk.begin, from + chunk.end}, parts[chunk.number]);
-    });
-    std::size_t all = items.size();
-    for (std::size_t i = 0; i < chunk_count(faces); ++i) ends[i] = all += parts[i].size();
-    // As many as there will be if it goes on like this.
-    const double share = static_cast<double>(from + faces) / static_cast<double>(count);
-    if (all > items.capacity()) items.reserve(static_cast<std::size_t>(1.05 * static_cast<double>(all) / share) + 1);
-    items.resize(all);
-    for_chunks(faces, [&](Chunk chunk) {
-      const auto& part = parts[chunk.number];
-      std::copy(part.begin(), part.end(), items.begin() + static_cast<std::ptrdiff_t>(ends[chunk.number] - part.size()));
-    });
-  }
-  return items;
 }
 
 template <int dim>
@@ -162,7 +125,7 @@ Items of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& w
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
       const FaceId first{f};
       for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
-        const FaceId second = pairs.second[i];
+        const FaceId second = pairs.values[i];
         const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
                                              surface.normals[second]);
         if (!pair) continue;

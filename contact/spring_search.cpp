@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "contact/choice.h"
@@ -15,48 +13,34 @@
 #include "contact/spring_list.h"
 #include "contact/touch.h"
 #include "engine/base/chunks.h"
-#include "engine/base/threads.h"
+#include "engine/base/grouped.h"
 
 namespace scree::contact {
 
 namespace {
 
-// Of each shell those that its semi-springs may touch, in no order of note.
+// Of each shell those that its semi-springs may touch.
 class NearShells {
  public:
-  NearShells(std::size_t shells, const Parts<NearSprings>& near) {
-    const auto for_all = [&](const auto& enter) {
-#pragma omp parallel for schedule(dynamic)
-      for (std::size_t i = 0; i < near.count(); ++i) {
-        for (const auto& [own, other] : near[i]) enter(own, other);
-      }
-    };
-    // Each start is counted two places on and moves one on while it is filled in.
-    starts_.assign(shells + 2, 0);
-    const bool alone = threads_in_use() == 1;
-    const auto next = [&](std::uint32_t shell) {
-      if (alone) return starts_[shell]++;  // an atomic sum takes several times as long
-      return std::atomic_ref(starts_[shell]).fetch_add(1, std::memory_order_relaxed);
-    };
-    for_all([&](std::uint32_t own, NearShell) { next(own + 2); });
-    std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-    others_.resize(starts_.back());
-    for_all([&](std::uint32_t own, NearShell other) { others_[next(own + 1)] = other; });
-  }
+  NearShells(std::size_t shells, const Parts<NearSprings>& near)
+      : others_(grouped<NearShell, std::uint32_t>(near.count(), shells, [&](std::size_t part, const auto& visit) {
+          for (const auto& [own, other] : near[part]) visit(own, other);
+        })) {}
 
   // Calls visit(place) for those that are close, or for the others, and whose bound is not above the limit.
   template <class Visit>
   SCREE_INLINE void for_each(const auto& shells, std::size_t shell, bool close, float limit, const Visit& visit) const {
-    for (std::size_t n = starts_[shell]; n < starts_[shell + 1]; ++n) {
-      constexpr std::size_t ahead = 3;
-      __builtin_prefetch(&shells[others_[std::min<std::size_t>(n + ahead, starts_[shell + 1] - 1)].place]);
-      if ((others_[n].close != 0) == close && others_[n].bound <= limit) visit(others_[n].place);
+    const std::uint32_t end = others_.begin[shell + 1];
+    for (std::uint32_t n = others_.begin[shell]; n < end; ++n) {
+      constexpr std::uint32_t ahead = 3;
+      __builtin_prefetch(&shells[others_.values[std::min(n + ahead, end - 1)].place]);
+      const NearShell& other = others_.values[n];
+      if ((other.close != 0) == close && other.bound <= limit) visit(other.place);
     }
   }
 
  private:
-  std::vector<std::uint32_t> starts_;  // of each shell, and the end
-  VectorWrittenLater<NearShell> others_;
+  Grouped<NearShell, std::uint32_t> others_;
 };
 
 // Of the semi-springs of a shell by their numbers (spring_list.h): where the vertex is among the corners of the face.

@@ -27,25 +27,31 @@ std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_
       return different == 0;
     }
   };
-  std::vector<std::uint32_t> end(nodes + 1, 0);  // of each least node's entries
-  for_each_face([&](const std::array<std::uint32_t, corners>& face, std::uint32_t) { ++end[face.front() + 1]; });
+  // Faces that are the same have the same least node and the same sum: some bits of it leave few to compare with.
+  constexpr std::uint32_t sums = 8;
+  const auto group = [](const std::array<std::uint32_t, corners>& face) {
+    return std::size_t{sums} * face.front() + std::accumulate(face.begin() + 1, face.end(), 0u) % sums;
+  };
+  const std::size_t groups = nodes * sums;
+  std::vector<std::uint32_t> end(groups + 1, 0);  // of each group's entries
+  for_each_face([&](const std::array<std::uint32_t, corners>& face, std::uint32_t) { ++end[group(face) + 1]; });
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<Entry> entries(end.back());
   for_each_face([&](const std::array<std::uint32_t, corners>& face, std::uint32_t place) {
-    Entry& entry = entries[end[face.front()]++];
+    Entry& entry = entries[end[group(face)]++];
     for (std::size_t i = 0; i + 1 < corners; ++i) entry.others[i] = face[i + 1];
     entry.place = place;
   });
-  // Each end has moved from where its node's entries begin to where they end. Those of a node are few.
+  // Each end has moved from where its group's entries begin to where they end.
   std::vector<char> lone(entries.size(), true);
   std::uint32_t begin = 0;
-  for (std::size_t node = 0; node < nodes; ++node) {
-    for (std::uint32_t i = begin; i < end[node]; ++i) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    for (std::uint32_t i = begin; i < end[g]; ++i) {
       for (std::uint32_t j = begin; j < i; ++j) {
         if (entries[i].same_nodes(entries[j])) lone[entries[i].place] = lone[entries[j].place] = false;
       }
     }
-    begin = end[node];
+    begin = end[g];
   }
   std::vector<std::uint32_t> alone;
   for (std::uint32_t place = 0; place < lone.size(); ++place) {
