@@ -3,69 +3,113 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/coordinates.h"
 #include "contact/tetrahedron.h"
 
 namespace scree::contact {
 
 namespace {
 
+// The vertices of an element or the planes opposite to them, a lane each; a triangle's last lane repeats the first.
 template <int dim>
-using Vertices = std::array<Point<dim>, dim + 1>;
+using Corner = Coordinates<dim, Quad>;
 
-// Outward normal of the face opposite to a vertex, of any length.
+constexpr int fourth(int dim) {
+  return dim == 3 ? 3 : 0;
+}
+
+// Of each plane a vertex in it.
+template <int dim, int corner>
+SCREE_INLINE Quad in_planes(const Quad& of_vertices) {
+  constexpr auto& corners = mesh::opposite_corners<dim>;
+  return __builtin_shufflevector(of_vertices, of_vertices, corners[0][corner], corners[1][corner], corners[2][corner],
+                                 corners[fourth(dim)][corner]);
+}
+
+template <int dim, int corner>
+SCREE_INLINE Corner<dim> in_planes(const Corner<dim>& vertices) {
+  Corner<dim> result;
+  for (int i = 0; i < dim; ++i) result[i] = in_planes<dim, corner>(vertices[i]);
+  return result;
+}
+
+// Outward unit normals of the planes.
 template <int dim>
-Point<dim> outward(const Vertices<dim>& vertices, int opposite) {
-  const auto& corners = mesh::opposite_corners<dim>[opposite];
-  const Point<dim> way = vertices[corners[1]] - vertices[corners[0]];
+SCREE_INLINE Corner<dim> normals_of(const Corner<dim>& vertices) {
+  const Corner<dim> from = in_planes<dim, 0>(vertices), way = minus<dim>(in_planes<dim, 1>(vertices), from);
+  Corner<dim> normals;
   if constexpr (dim == 2) {
-    return {way.y(), -way.x()};
+    normals = {way[1], -way[0]};
   } else {
-    return way.cross(vertices[corners[2]] - vertices[corners[0]]);
+    normals = cross(way, minus<dim>(in_planes<dim, 2>(vertices), from));
   }
+  const Quad length = root(dot<dim>(normals, normals));
+  for (Quad& axis : normals) axis /= length;
+  return normals;
 }
 
-// Lanes beyond the last vertex repeat the first.
-template <int dim>
-void place_vertices(const Surface<dim>& surface, const Vertices<dim>& vertices, Shell<dim>& shell) {
-  for (int lane = 0; lane < lane_count; ++lane) {
-    const int v = lane <= dim ? lane : 0;
-    const bool boundary = (shell.faces >> v & 1u) != 0;
-    const Point<dim> normal = boundary ? surface.normals[shell.face(v)] : outward<dim>(vertices, v).normalized();
-    shell.offsets[lane] = static_cast<float>(normal.dot(vertices[mesh::opposite_corners<dim>[v][0]]));
-    for (int i = 0; i < dim; ++i) {
-      shell.at[i][lane] = static_cast<float>(vertices[v][i]);
-      shell.normals[i][lane] = static_cast<float>(normal[i]);
-    }
-  }
+SCREE_INLINE double largest(const Quad& numbers) {
+  return std::max(std::max(numbers[0], numbers[1]), std::max(numbers[2], numbers[3]));
 }
 
-template <int dim>
-double longest_edge(const Vertices<dim>& vertices) {
-  double square = 0;
-  for (int i = 0; i <= dim; ++i) {
-    for (int j = 0; j < i; ++j) square = std::max(square, (vertices[i] - vertices[j]).squaredNorm());
-  }
-  return std::sqrt(square);
+SCREE_INLINE Quad larger(const Quad& a, const Quad& b) {
+  return a > b ? a : b;
 }
 
-// Is the face that is opposite to a vertex this one of the surface?
-template <int dim>
-bool is_opposite(const Surface<dim>& surface, FaceId face, NodeId vertex) {
-  const auto& nodes = surface.faces[face].nodes;
-  return std::find(nodes.begin(), nodes.end(), vertex) == nodes.end();
+SCREE_INLINE double longest_edge(const Corner<3>& vertices) {
+  Corner<3> next, opposite;
+  for (int i = 0; i < 3; ++i) {
+    next[i] = vertices[i] - __builtin_shufflevector(vertices[i], vertices[i], 1, 2, 3, 0);
+    opposite[i] = vertices[i] - __builtin_shufflevector(vertices[i], vertices[i], 2, 3, 0, 1);
+  }
+  return std::sqrt(largest(larger(dot<3>(next, next), dot<3>(opposite, opposite))));
 }
+
+SCREE_INLINE void put(const Quad& numbers, Lanes& lanes) {
+  lanes = __builtin_convertvector(numbers, Lanes);
+}
+
+// `vertices`: as seen from the centre.
+template <int dim>
+SCREE_INLINE void place(const Corner<dim>& vertices, const ShellOptions& options, Shell<dim>& shell) {
+  const Corner<dim> normals = normals_of<dim>(vertices);
+  for (int i = 0; i < dim; ++i) {
+    put(vertices[i], shell.at[i]);
+    put(normals[i], shell.normals[i]);
+  }
+  put(dot<dim>(normals, in_planes<dim, 0>(vertices)), shell.offsets);
+  shell.radius = static_cast<float>(std::sqrt(largest(dot<dim>(vertices, vertices))));
+  // The centre of a face is a third of its height above an edge.
+  if constexpr (dim == 3) shell.shift = static_cast<float>(options.indentation * longest_edge(vertices) / 3);
+}
+
+// Which of an element's vertices is not in a face of it, without a branch.
+template <int dim>
+unsigned opposite_vertex(const std::array<NodeId, dim + 1>& element, const std::array<NodeId, dim>& face) {
+  auto missing = element[0].value();
+  for (int v = 1; v <= dim; ++v) missing ^= element[v].value();
+  for (const NodeId node : face) missing ^= node.value();
+  unsigned vertex = 0;
+  for (unsigned v = 1; v <= dim; ++v) vertex |= element[v].value() == missing ? v : 0;
+  return vertex;
+}
+
+constexpr std::array<std::array<int, 3>, 4> edges_of_sides = [] {
+  std::array<std::array<int, 3>, 4> edges{};
+  for (std::size_t e = 0; e < element_edges.size(); ++e) {
+    for (const int face : element_edges[e].beside) edges[face][side_of(element_edges[e], face)] = static_cast<int>(e);
+  }
+  return edges;
+}();
 
 // A target edge is searched in the shell of its first face.
-void add_edges(const Surface<3>& surface, Shell<3>& shell) {
-  for (unsigned e = 0; e < element_edges.size(); ++e) {
-    for (const int face : element_edges[e].beside) {
-      if ((shell.faces >> face & 1u) == 0) continue;
-      const FaceId f = shell.face(face);
-      const EdgeId edge = surface.face_edges[f][side_of(element_edges[e], face)];
-      if (surface.edges[edge].faces[0] != f) continue;
-      shell.edges = static_cast<std::uint8_t>(shell.edges | 1u << e);
-      shell.targets[e] = edge;
-    }
+void add_edges(const Surface<3>& surface, int plane, FaceId face, Shell<3>& shell) {
+  for (int side = 0; side < 3; ++side) {
+    const EdgeId edge = surface.face_edges[face][side];
+    const bool here = surface.edges[edge].faces[0] == face;
+    const int e = edges_of_sides[plane][side];
+    shell.edges = static_cast<std::uint8_t>(shell.edges | (here ? 1u : 0u) << e);
+    shell.targets[e] = here ? edge : shell.targets[e];
   }
 }
 
@@ -85,33 +129,27 @@ template <int dim>
 Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, const ShellOptions& options) {
   Shell<dim> shell;
   const auto& nodes = surface.mesh.elements[surface.faces[first].element];
-  Vertices<dim> vertices;
   shell.centre.setZero();
-  for (int v = 0; v <= dim; ++v) {
-    vertices[v] = surface.mesh.nodes[nodes[v]];
-    shell.centre += vertices[v] / (dim + 1);
-  }
-  double square = 0;
-  for (Point<dim>& vertex : vertices) {
-    vertex -= shell.centre;
-    square = std::max(square, vertex.squaredNorm());
-  }
-  shell.radius = static_cast<float>(std::sqrt(square));
+  for (const NodeId node : nodes) shell.centre += surface.mesh.nodes[node] / (dim + 1);
+  widely([&](auto) SCREE_INLINED {
+    Corner<dim> vertices;
+    for (int i = 0; i < dim; ++i) {
+      const auto at = [&](int v) SCREE_INLINED { return surface.mesh.nodes[nodes[v]][i]; };
+      vertices[i] = Quad{at(0), at(1), at(2), at(fourth(dim))} - shell.centre[i];
+    }
+    place<dim>(vertices, options, shell);
+  });
   shell.reach = static_cast<float>(options.tolerance * surface.lengths[first]);
-  // The centre of a face is a third of its height above an edge.
-  if constexpr (dim == 3) shell.shift = static_cast<float>(options.indentation * longest_edge<dim>(vertices) / 3);
   shell.block = surface.faces[first].block;
   shell.whole = surface.mesh.blocks[shell.block].elements.size() == 1;
   shell.first = first;
-  FaceId next = first;
-  for (int v = 0; v <= dim && next < end; ++v) {
-    if (!is_opposite(surface, next, nodes[v])) continue;
-    shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << v);
-    next = FaceId{next.index() + 1};
-  }
-  place_vertices(surface, vertices, shell);
-  if constexpr (dim == 3) {
-    if (!surface.face_edges.empty()) add_edges(surface, shell);
+  const bool with_edges = dim == 3 && !surface.face_edges.empty();
+  for (std::size_t f = first.index(); f < end.index(); ++f) {
+    const unsigned plane = opposite_vertex<dim>(nodes, surface.faces[FaceId{f}].nodes);
+    shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << plane);
+    if constexpr (dim == 3) {
+      if (with_edges) add_edges(surface, static_cast<int>(plane), FaceId{f}, shell);
+    }
   }
   return shell;
 }
