@@ -64,7 +64,11 @@ SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& que
   answer.gap = chosen(answer.apart, signed_distance, height);
   Coordinates<dim, Number> direction;  // of the gap, away from the target
   for (int i = 0; i < dim; ++i) direction[i] = chosen(answer.apart, offset[i] / answer.gap, query.target_normal[i]);
-  answer.near = answer.near & (answer.on_rim | looks_at<dim>(query.owner_normal, direction));
+  // At the rim the gap's sign is not known yet, but whichever it is the owner's face must look along the offset.
+  const Number along = dot<dim>(query.owner_normal, offset);
+  constexpr double rounding = 1 - 1e-9;
+  const auto may_look = at_most(rounding * least_facing * distance, chosen(below(along, zero), -along, along));
+  answer.near = answer.near & ((answer.on_rim & may_look) | looks_at<dim>(query.owner_normal, direction));
   answer.facing = dot<dim>(direction, query.target_normal);
   return answer;
 }

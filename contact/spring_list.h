@@ -30,7 +30,8 @@ struct PossibleTouch {
   float bound;           // the semi-spring is no nearer, at least 0 [m]
   std::uint16_t spring;  // its number in the list
   std::uint8_t plane;    // of the target in its shell
-  bool inside;           // it is below the planes of all other faces of the target's element
+  bool inside : 1;       // it is below the planes of all other faces of the target's element
+  bool whole : 1;        // the target's block has no other element
   FaceId target;
 };
 
@@ -222,7 +223,7 @@ class SpringList {
       for (; found != 0; found &= found - 1) {
         const int spring = std::countr_zero(found);
         *next++ = {bounds[spring], static_cast<std::uint16_t>(shell * springs_of_shell + static_cast<std::size_t>(spring)),
-                   static_cast<std::uint8_t>(t), (outside >> spring & 1u) == 0, face};
+                   static_cast<std::uint8_t>(t), (outside >> spring & 1u) == 0, other.whole, face};
       }
     });
     possible.resize(static_cast<std::size_t>(next - possible.data()));

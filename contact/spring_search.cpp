@@ -152,7 +152,7 @@ class SpringSearch {
     queries_.measure(options_.tolerance);
     for (std::size_t k = 0; k < queries_.count(); ++k) {
       const PossibleTouch& possible = possible_[asked_[k].possible];
-      const KnownTarget known{possible.plane, possible.inside};
+      const KnownTarget known{possible.plane, possible.whole, possible.inside};
       const auto touch = touch_of<dim>(surface_, asked_[k].pair, known, queries_.point(k), queries_.answer(k));
       if (touch) keep(possible, asked_[k].pair.owner, *touch);
     }

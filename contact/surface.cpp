@@ -1,6 +1,7 @@
 #include "contact/surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -199,23 +200,34 @@ std::vector<std::size_t> block_starts(const mesh::BlockMesh<dim>& mesh, const Ta
 }
 
 template <int dim>
-Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, int plane, const std::array<double, dim>& weights) {
-  int zeros = 0, some_zero = 0, some_other = 0;
-  for (int i = 0; i < dim; ++i) {
-    zeros += weights[i] == 0 ? 1 : 0;
-    (weights[i] == 0 ? some_zero : some_other) = i;
+double rise_at_rim(const Surface<dim>& surface, const PlacedFace& at, const std::array<double, dim>& weights,
+                   const Point<dim>& offset) {
+  const auto& corners = mesh::opposite_corners<dim>[at.plane];
+  const auto rise = [&](FaceId face) { return surface.normals[face].dot(offset); };
+  // Faces of a whole block follow one another.
+  const auto own_face = [&](int plane) { return FaceId{at.face.index() + static_cast<std::size_t>(plane) - static_cast<std::size_t>(at.plane)}; };
+  unsigned zero = 0;
+  for (int i = 0; i < dim; ++i) zero |= (weights[i] == 0 ? 1u : 0u) << i;
+  if (zero == 0) return rise(at.face);
+  if (dim == 3 && std::has_single_bit(zero)) {
+    const auto beyond = static_cast<std::size_t>(std::countr_zero(zero));
+    if (at.whole) return rise(at.face) + rise(own_face(corners[beyond]));
+    const SurfaceEdge& edge = surface.edges[surface.face_edges[at.face][(beyond + 1) % 3]];
+    return rise(edge.faces[0]) + rise(edge.faces[1]);
   }
-  if (zeros == 0) return surface.normals[face];
-  const auto& corners = mesh::opposite_corners<dim>[plane];
-  const bool whole = is_whole(surface, surface.faces[face].block);
-  const std::size_t first = face.index() - static_cast<std::size_t>(plane);  // of a whole block
-  if (zeros == dim - 1) {
-    return whole ? node_normal(surface, first, corners[some_other])
-                 : surface.node_normals[surface.faces[face].nodes[some_other]];
+  const auto corner = static_cast<std::size_t>(std::countr_one(zero));
+  if (!at.whole) return surface.node_normals[surface.faces[at.face].nodes[corner]].dot(offset);
+  // The weights are of no matter if it leads out along all normals, or in.
+  const int vertex = corners[corner];
+  unsigned out = 0, in = 0;
+  for (int plane = 0; plane <= dim; ++plane) {
+    if (plane == vertex) continue;
+    const double along = rise(own_face(plane));
+    out |= along > 0 ? 1u : 0u;
+    in |= along < 0 ? 1u : 0u;
   }
-  if (whole) return surface.normals[face] + surface.normals[FaceId{first + static_cast<std::size_t>(corners[some_zero])}];
-  const SurfaceEdge& edge = surface.edges[surface.face_edges[face][(some_zero + 1) % 3]];
-  return surface.normals[edge.faces[0]] + surface.normals[edge.faces[1]];
+  if (out != in) return out != 0 ? 1 : -1;
+  return node_normal(surface, own_face(0).index(), vertex).dot(offset);
 }
 
 template <int dim>
@@ -237,7 +249,7 @@ bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& po
   template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                      \
   template void add_rims<dim>(Surface<dim>&);                                                                              \
   template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
-  template Point<dim> outwards_at<dim>(const Surface<dim>&, FaceId, int, const std::array<double, dim>&);                  \
+  template double rise_at_rim<dim>(const Surface<dim>&, const PlacedFace&, const std::array<double, dim>&, const Point<dim>&); \
   template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -64,12 +64,19 @@ Corners<dim> corners_of(const Surface<dim>& surface, FaceId face) {
   return corners;
 }
 
-// A direction that points out of the block at a point of its face given by weights: the face's normal inside it, on an edge
-// the mean of both faces', at a node the angle-weighted mean. With these the sign of (p - closest point) . outwards says
-// whether p is outside, on edges and corners too (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005). `plane` is which vertex of its
-// element the face is opposite to.
+// A face, which vertex of its element it is opposite to, and whether its block has no other element.
+struct PlacedFace {
+  FaceId face;
+  int plane;
+  bool whole;
+};
+
+// How far an offset from a point of a face's rim, given by its weights, leads out of the block, times any positive number: on
+// an edge along the mean of both faces' normals, at a node along the angle-weighted mean. With these the sign says whether it
+// leads out if that is the closest point of the block (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005).
 template <int dim>
-Point<dim> outwards_at(const Surface<dim>& surface, FaceId face, int plane, const std::array<double, dim>& weights);
+double rise_at_rim(const Surface<dim>& surface, const PlacedFace& at, const std::array<double, dim>& weights,
+                   const Point<dim>& offset);
 
 // Is the point in the block whose face this is? Asks the element behind the face first, which is nearly always the one.
 template <int dim>

@@ -61,7 +61,7 @@ std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const Point
   PointTouch<dim> touch{answer.gap, answer.facing, answer.on_target};
   if (answer.on_rim != 0) {
     const Eigen::Map<const Point<dim>> offset(answer.offset.data());
-    const bool behind = outwards_at<dim>(surface, pair.target, known.plane, answer.on_target).dot(offset) < 0;
+    const bool behind = rise_at_rim<dim>(surface, {pair.target, known.plane, known.whole}, answer.on_target, offset) < 0;
     touch.gap = behind ? -offset.norm() : offset.norm();
     const Point<dim> direction = offset / touch.gap;
     if (direction.dot(surface.normals[pair.owner]) > -least_facing) return std::nullopt;
@@ -77,7 +77,8 @@ template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options,
                                           const PointAndFace& pair) {
   const auto query = query_of<dim>(surface, semi_spring_weights<dim>(pair.corner, options.indentation), pair);
-  const KnownTarget known{plane_of(surface, pair.target), false};
+  const bool whole = surface.mesh.blocks[surface.faces[pair.target].block].elements.size() == 1;
+  const KnownTarget known{plane_of(surface, pair.target), whole, false};
   return touch_of<dim>(surface, pair, known, Eigen::Map<const Point<dim>>(query.point.data()),
                        measure(query, options.tolerance));
 }

@@ -50,6 +50,7 @@ SCREE_INLINE PointQuery<dim, double> query_of(const Surface<dim>& surface, const
 // What the search knows of a target and a semi-spring.
 struct KnownTarget {
   int plane;    // which vertex of its element the target is opposite to
+  bool whole;   // its block has no other element
   bool inside;  // the semi-spring is known to be below the planes of all other faces of that element
 };
 
