@@ -81,12 +81,12 @@ std::vector<std::vector<std::uint32_t>> BoxGrid<dim>::by_size(std::span<const Aa
   auto sizes = sample(boxes.size(), [&](std::size_t i) { return size_of<dim>(boxes[i]); });
   const double median = ranked(sizes, sizes.size() / 2);
   // The middle of a level is a factor two either way from its ends, so that one mesh size falls into one level.
-  constexpr int levels = 256;
+  constexpr int levels = 256, middle = levels / 2;
   std::vector<std::uint8_t> level(boxes.size());
   for_chunks(boxes.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const double order = std::round(0.5 * std::log2(size_of<dim>(boxes[i]) / median));
-      level[i] = static_cast<std::uint8_t>(std::clamp(order, -127.0, 127.0) + levels / 2);
+      level[i] = static_cast<std::uint8_t>(std::clamp(order, 1.0 - middle, middle - 1.0) + middle);
     }
   });
   std::vector<std::vector<std::uint32_t>> members(levels);
@@ -106,11 +106,12 @@ void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, const std::vecto
   for_chunks(members.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) slots[i] = slot_of(level, boxes[members[i]]);
   });
-  auto sorted = grouped<std::uint32_t, std::uint32_t>(
-      chunk_count(members.size()), std::size_t{1} << bits, [&](std::size_t part, const auto& visit) {
-        const Chunk chunk = chunk_of(members.size(), part);
-        for (std::size_t i = chunk.begin; i < chunk.end; ++i) visit(slots[i], members[i]);
-      });
+  auto sorted = grouped<std::uint32_t, std::uint32_t>(chunk_count(members.size()), std::size_t{1} << bits,
+                                                      [&](std::size_t part, const auto& visit) {
+                                                        const Chunk chunk = chunk_of(members.size(), part);
+                                                        for (std::size_t i = chunk.begin; i < chunk.end; ++i)
+                                                          visit(slots[i], members[i]);
+                                                      });
   for_chunks(members.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       order_[level.first + i] = sorted.values[i];
@@ -128,7 +129,7 @@ void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, const std::vecto
 template <int dim>
 void BoxGrid<dim>::choose_cells(std::span<const Aabb<dim>> boxes, const std::vector<std::uint32_t>& members,
                                 Level& level) const {
-  const Point<dim> largest = over_chunks<Point<dim>>(
+  const auto largest = over_chunks<Point<dim>>(
       members.size(),
       [&](Chunk chunk) {
         Point<dim> some = Point<dim>::Zero();

@@ -222,8 +222,12 @@ class SpringList {
       const FaceId face = other.face(t);
       for (; found != 0; found &= found - 1) {
         const int spring = std::countr_zero(found);
-        *next++ = {bounds[spring], static_cast<std::uint16_t>(shell * springs_of_shell + static_cast<std::size_t>(spring)),
-                   static_cast<std::uint8_t>(t), (outside >> spring & 1u) == 0, other.whole, face};
+        *next++ = {bounds[spring],
+                   static_cast<std::uint16_t>(shell * springs_of_shell + static_cast<std::size_t>(spring)),
+                   static_cast<std::uint8_t>(t),
+                   (outside >> spring & 1u) == 0,
+                   other.whole,
+                   face};
       }
     });
     possible.resize(static_cast<std::size_t>(next - possible.data()));

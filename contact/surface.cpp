@@ -205,7 +205,9 @@ double rise_at_rim(const Surface<dim>& surface, const PlacedFace& at, const std:
   const auto& corners = mesh::opposite_corners<dim>[at.plane];
   const auto rise = [&](FaceId face) { return surface.normals[face].dot(offset); };
   // Faces of a whole block follow one another.
-  const auto own_face = [&](int plane) { return FaceId{at.face.index() + static_cast<std::size_t>(plane) - static_cast<std::size_t>(at.plane)}; };
+  const auto own_face = [&](int plane) {
+    return FaceId{at.face.index() + static_cast<std::size_t>(plane) - static_cast<std::size_t>(at.plane)};
+  };
   unsigned zero = 0;
   for (int i = 0; i < dim; ++i) zero |= (weights[i] == 0 ? 1u : 0u) << i;
   if (zero == 0) return rise(at.face);
@@ -245,10 +247,10 @@ bool inside_block(const Surface<dim>& surface, FaceId face, const Point<dim>& po
   return elements.size() > 1 && std::any_of(elements.begin(), elements.end(), inside);
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                             \
-  template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                      \
-  template void add_rims<dim>(Surface<dim>&);                                                                              \
-  template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
+#define SCREE_INSTANTIATE(dim)                                                                                                 \
+  template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                          \
+  template void add_rims<dim>(Surface<dim>&);                                                                                  \
+  template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&);     \
   template double rise_at_rim<dim>(const Surface<dim>&, const PlacedFace&, const std::array<double, dim>&, const Point<dim>&); \
   template bool inside_block<dim>(const Surface<dim>&, FaceId, const Point<dim>&);
 SCREE_INSTANTIATE(2)

@@ -52,29 +52,38 @@ Corners<dim> opposite_areas(const Corners<dim>& points);
 // Of the linear function that has these values at the corners, which is -1/(dim V) sum_a S_a T_a. Differences from one corner,
 // as the areas sum to zero only to rounding, and temperatures in kelvin are large: the area opposite to that corner drops out,
 // and a frame asks for this of every element.
-template <int dim>
-SCREE_INLINE Point<dim> gradient(const Corners<dim>& points, const CornerValues<dim>& values) {
-  std::array<Point<dim>, dim> ways;
+// In numbers only: loops over many elements take some of them at once. point(corner, axis), value(corner).
+template <int dim, class PointAt, class ValueAt>
+SCREE_INLINE std::array<double, dim> gradient(const PointAt& point, const ValueAt& value) {
+  std::array<std::array<double, dim>, dim> ways;
   std::array<double, dim> rises;
   for (int a = 0; a < dim; ++a) {
-    ways[a] = points.col(a + 1) - points.col(0);
-    rises[a] = values[a + 1] - values[0];
+    for (int i = 0; i < dim; ++i) ways[a][i] = point(a + 1, i) - point(0, i);
+    rises[a] = value(a + 1) - value(0);
   }
+  std::array<double, dim> sum{};
+  double scale = 0;
   if constexpr (dim == 2) {
-    const auto across = [](const Point<2>& way) { return Point<2>(way[1], -way[0]); };
-    return 1 / ways[0].dot(across(ways[1])) * (rises[0] * across(ways[1]) - rises[1] * across(ways[0]));
+    scale = 1 / (ways[0][0] * ways[1][1] - ways[0][1] * ways[1][0]);
+    sum = {rises[0] * ways[1][1] - rises[1] * ways[0][1], rises[1] * ways[0][0] - rises[0] * ways[1][0]};
   } else {
-    const Point<3> across = ways[1].cross(ways[2]);
-    return 1 / ways[0].dot(across) *
-           (rises[0] * across + rises[1] * ways[2].cross(ways[0]) + rises[2] * ways[0].cross(ways[1]));
+    double volume = 0;  // six times
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const auto across = [&](int a, int b) SCREE_INLINED { return ways[a][j] * ways[b][k] - ways[a][k] * ways[b][j]; };
+      volume += ways[0][i] * across(1, 2);
+      sum[i] = rises[0] * across(1, 2) + rises[1] * across(2, 0) + rises[2] * across(0, 1);
+    }
+    scale = 1 / volume;
   }
+  for (double& along : sum) along *= scale;
+  return sum;
 }
 
-// q of eq. (4) [W/m2], at corner temperatures [K] and conductivity k [W/m/K], a number or a Tensor.
+// q of eq. (4) [W/m2] at a gradient of temperature [K/m] and conductivity k [W/m/K], a number or a Tensor.
 template <int dim, class Conductivity>
-SCREE_INLINE Point<dim> element_flux(const Corners<dim>& points, const Conductivity& conductivity,
-                                     const CornerValues<dim>& temperatures) {
-  return -(conductivity * gradient<dim>(points, temperatures));
+SCREE_INLINE Point<dim> flux(const Conductivity& conductivity, const Point<dim>& gradient) {
+  return -(conductivity * gradient);
 }
 
 // K_ab of eqs. (4)-(5) [W/K]: exactly symmetric, and each diagonal is minus the sum of its row.

@@ -8,6 +8,7 @@
 
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/part_in_box.h"
+#include "thermal/fluxes.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
 #include "thermal/problems.h"

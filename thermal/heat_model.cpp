@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/mesh/cells.h"
 #include "thermal/assemble_blocks.h"
-#include "thermal/block_conduction.h"
 #include "thermal/boundary.h"
 #include "thermal/choose_lumped.h"
 #include "thermal/fourth_order.h"
@@ -21,11 +19,6 @@
 namespace scree::thermal {
 
 namespace {
-
-template <int dim>
-const Material& material_of(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block) {
-  return materials[mesh.bodies[mesh.blocks[block].body].material];
-}
 
 // Everything that is missing, in one error.
 class MissingValues {
@@ -140,57 +133,6 @@ HeatModel unjoined(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mat
   return model;
 }
 
-// Flux in one block.
-template <int dim>
-class BlockFlux {
- public:
-  BlockFlux(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, BlockId block)
-      : mesh_(mesh),
-        value_(material_of(mesh, materials, block).conductivity->value),
-        constant_(value_.constant()),
-        isotropic_(material_of(mesh, materials, block).conductivity->isotropic()),
-        size_(constant_.value_or(1)) {
-    if (isotropic_) return;
-    tensor_ = size_ * conductivity_ratios<dim>(*material_of(mesh, materials, block).conductivity, mesh.blocks[block]);
-  }
-
-  Point<dim> in(const mesh::Simplex<dim>& nodes, const Eigen::VectorXd& temperature) const {
-    const auto at = [&](int corner) { return temperature[nodes[corner].value()]; };
-    CornerValues<dim> values;
-    if (constant_) {  // by itself, so that no call in between keeps the values in memory
-      for (int i = 0; i <= dim; ++i) values[i] = at(i);
-      return of(values, nodes);
-    }
-    for (int i = 0; i <= dim; ++i) values[i] = value_.integral(at(i));  // Kirchhoff's Phi (heat_balance.h)
-    return of(values, nodes);
-  }
-
-  // Over both splits, by volume.
-  Point<dim> in(CellId cell, const Eigen::VectorXd& temperature) const {
-    Point<dim> sum = Point<dim>::Zero();
-    double volume = 0;
-    for (const mesh::Simplex<dim>& nodes : mesh::both_splits(mesh_, cell)) {
-      const double part = mesh::simplex_volume<dim>(mesh_, nodes);
-      sum += part * in(nodes, temperature);
-      volume += part;
-    }
-    return sum / volume;
-  }
-
- private:
-  SCREE_INLINE Point<dim> of(const CornerValues<dim>& corner, const mesh::Simplex<dim>& nodes) const {
-    const Corners<dim> points = corner_points<dim>(mesh_, nodes);
-    return isotropic_ ? element_flux<dim>(points, size_, corner) : element_flux<dim>(points, tensor_, corner);
-  }
-
-  const mesh::BlockMesh<dim>& mesh_;
-  const Curve& value_;
-  std::optional<double> constant_;
-  bool isotropic_;
-  double size_;  // of the conductivity, or of what Phi leaves of it
-  Tensor<dim> tensor_;
-};
-
 }  // namespace
 
 bool has_constant_properties(const HeatModel& model) {
@@ -235,43 +177,13 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   return model;
 }
 
-template <int dim>
-std::vector<Point<dim>> cell_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                    const Eigen::VectorXd& temperature) {
-  if (mesh.cells.empty()) return element_fluxes(mesh, materials, temperature);
-  std::vector<Point<dim>> fluxes;
-  for (const BlockId b : mesh.blocks.ids()) {
-    const mesh::Block& block = mesh.blocks[b];
-    const BlockFlux<dim> flux(mesh, materials, b);
-    for (const CellId cell : block.cells) fluxes.push_back(flux.in(cell, temperature));
-    if (block.cells.size() > 0) continue;
-    for (const ElementId e : block.elements) fluxes.push_back(flux.in(mesh.elements[e], temperature));
-  }
-  return fluxes;
-}
-
-template <int dim>
-std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                       const Eigen::VectorXd& temperature) {
-  std::vector<Point<dim>> fluxes(mesh.elements.size());
-  for (const BlockId b : mesh.blocks.ids()) {
-    const BlockFlux<dim> flux(mesh, materials, b);
-    for (const ElementId e : mesh.blocks[b].elements) fluxes[e.index()] = flux.in(mesh.elements[e], temperature);
-  }
-  return fluxes;
-}
-
 #define SCREE_INSTANTIATE(dim)                                                                                               \
   template void check_heat_options<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, const HeatOptions&, \
                                         const MovingBodies&);                                                                \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
                                           const contact::ContactSet<dim>&, const HeatOptions&);                              \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
-                                          const contact::ContactSet<dim>&, const JointConduction<dim>&, const HeatOptions&); \
-  template std::vector<Point<dim>> cell_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,         \
-                                                    const Eigen::VectorXd&);                                                 \
-  template std::vector<Point<dim>> element_fluxes<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,      \
-                                                       const Eigen::VectorXd&);
+                                          const contact::ContactSet<dim>&, const JointConduction<dim>&, const HeatOptions&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

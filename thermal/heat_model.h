@@ -114,14 +114,4 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
                           const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
                           const HeatOptions& options);
 
-// Heat flux of each cell as a series shows them, block by block: its cells, or its elements if it has none [W/m2].
-template <int dim>
-std::vector<Point<dim>> cell_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                    const Eigen::VectorXd& temperature);
-
-// Heat flux of each element, eq. (4) [W/m2].
-template <int dim>
-std::vector<Point<dim>> element_fluxes(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                       const Eigen::VectorXd& temperature);
-
 }  // namespace scree::thermal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "thermal/fluxes.h"
 #include "thermal/heat_balance.h"
 
 namespace scree::thermal {

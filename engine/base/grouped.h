@@ -60,7 +60,9 @@ class Grouping {
     std::vector<Strays> strays(bands_);
     for_parts(
         band, [&](std::size_t group, const Value&) { ++grouped_.begin[group + 2]; },
-        [&](std::uint32_t group, const Value& value) { strays[group / band_size_].push_back({group, value}); });
+        [&](std::uint32_t group, const Value& value) {
+          strays[group / band_size_].push_back({group, value});
+        });
     strays_[band] = std::move(strays);
   }
 
@@ -76,7 +78,9 @@ class Grouping {
   void for_parts(std::size_t band, const Own& own, const Other& other) const {
     const std::size_t first = band * band_size_;
     for (std::size_t part = band * share_; part < std::min(parts_, (band + 1) * share_); ++part) {
-      for_part_(part, [&](std::uint32_t group, const Value& value) { group - first < band_size_ ? own(group, value) : other(group, value); });
+      for_part_(part, [&](std::uint32_t group, const Value& value) {
+        group - first < band_size_ ? own(group, value) : other(group, value);
+      });
     }
   }
 
@@ -90,8 +94,8 @@ class Grouping {
   std::size_t parts_;
   const ForPart& for_part_;
   std::size_t bands_;
-  std::size_t band_size_;  // groups of a band, but of the last, which may have fewer
-  std::size_t share_;      // parts of a band, likewise
+  std::size_t band_size_;                    // groups of a band, but of the last, which may have fewer
+  std::size_t share_;                        // parts of a band, likewise
   std::vector<std::vector<Strays>> strays_;  // by the band that found them, then by the one that they belong to
   Grouped<Value, Start> grouped_;
 };

@@ -21,7 +21,8 @@ SomeParts random_parts(std::size_t count, std::uint32_t groups, bool in_order) {
   for (std::size_t part = 0; part < count; ++part) {
     parts[part].resize(random() % 300);
     for (auto& item : parts[part]) {
-      const std::size_t any = random() % groups, near = std::min<std::size_t>(part * groups / count + random() % 50, groups - 1);
+      const std::size_t any = random() % groups,
+                        near = std::min<std::size_t>(part * groups / count + random() % 50, groups - 1);
       item = {static_cast<std::uint32_t>(in_order ? near : any), ++value};
     }
   }

@@ -10,6 +10,7 @@
 #include "engine/mesh/cells.h"
 #include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
+#include "thermal/fluxes.h"
 
 namespace scree::thermal {
 namespace {

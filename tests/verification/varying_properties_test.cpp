@@ -8,6 +8,7 @@
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
 #include "thermal/drive.h"
+#include "thermal/fluxes.h"
 #include "thermal/heat_run.h"
 #include "thermal/joint_conduction.h"
 #include "thermal/steady_state.h"

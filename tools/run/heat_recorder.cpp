@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/threads.h"
+#include "thermal/fluxes.h"
 #include "thermal/space_error.h"
 #include "tools/run/frames.h"
 
