@@ -19,37 +19,40 @@ bool has_cells(const mesh::BlockMesh<dim>& mesh, BlockId block) {
   return mesh.blocks[block].cells.size() > 0;
 }
 
-// Calls visit(node, piece) for the cells of a block, or if it has none for its elements, in their order.
+// Calls visit(node, piece) for some of the cells of a block, or if it has none for its elements, in their order.
 template <int dim, class Visit>
-void visit_pieces(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block, const Visit& visit) {
-  for (const CellId cell : block.cells) {
-    const mesh::Cell& corners = mesh.cells[cell];
-    for (std::size_t i = 0; i < mesh::corner_count(corners.kind); ++i) {
-      visit(corners.nodes[i].value(), static_cast<std::uint32_t>(cell.index()));
+void visit_pieces(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block, std::size_t begin, std::size_t end,
+                  const Visit& visit) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (block.cells.size() > 0) {
+      const mesh::Cell& corners = mesh.cells[block.cells[i]];
+      for (std::size_t n = 0; n < mesh::corner_count(corners.kind); ++n) {
+        visit(corners.nodes[n].value(), static_cast<std::uint32_t>(block.cells[i].index()));
+      }
+    } else {
+      const ElementId element = block.elements[i];
+      for (const NodeId node : mesh.elements[element]) visit(node.value(), static_cast<std::uint32_t>(element.index()));
     }
   }
-  if (block.cells.size() > 0) return;
-  for (const ElementId element : block.elements) {
-    for (const NodeId node : mesh.elements[element]) visit(node.value(), static_cast<std::uint32_t>(element.index()));
-  }
 }
-
-// Blocks that have together as many nodes or more are a task for one thread.
-constexpr std::size_t nodes_in_task = 4096;
 
 // The pieces that each node belongs to; those of blocks that are lumped have none.
 template <int dim>
 Incidence pieces_at_nodes(const mesh::BlockMesh<dim>& mesh, const std::optional<LumpedBlocks>& lumped) {
-  std::vector<std::size_t> ends{0};
-  for (const mesh::Block& block : mesh.blocks) ends.push_back(ends.back() + block.nodes.size());
-  const std::vector<Chunk> tasks = chunks_by_size(ends, nodes_in_task);
-  return Incidence(mesh.nodes.size(), [&](const auto& visit) {
-    for_chunks(tasks, [&](Chunk task) {
-      for (std::size_t i = task.begin; i < task.end; ++i) {
-        const BlockId block(i);
-        if (!lumped || !lumped->contain(block)) visit_pieces(mesh, mesh.blocks[block], visit);
-      }
-    });
+  std::vector<std::size_t> ends{0};  // of the pieces of each block
+  for (const BlockId b : mesh.blocks.ids()) {
+    const mesh::Block& block = mesh.blocks[b];
+    const std::size_t pieces = has_cells(mesh, b) ? block.cells.size() : block.elements.size();
+    ends.push_back(ends.back() + (lumped && lumped->contain(b) ? 0 : pieces));
+  }
+  return Incidence(mesh.nodes.size(), chunk_count(ends.back()), [&](std::size_t part, const auto& visit) {
+    const Chunk chunk = chunk_of(ends.back(), part);
+    auto block = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), chunk.begin) - ends.begin()) - 1;
+    for (std::size_t begin = chunk.begin; begin < chunk.end; ++block) {
+      const std::size_t end = std::min(chunk.end, ends[block + 1]);
+      visit_pieces(mesh, mesh.blocks[BlockId{block}], begin - ends[block], end - ends[block], visit);
+      begin = end;
+    }
   });
 }
 

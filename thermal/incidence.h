@@ -2,37 +2,48 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <span>
-#include <vector>
+
+#include "engine/base/chunks.h"
+#include "engine/base/grouped.h"
 
 namespace scree::thermal {
 
 template <class Piece>
 class PiecesOfRows {
  public:
-  // for_each_use(visit) calls visit(row, piece) for all there are, the same twice over; those of one row on one thread.
-  template <class ForEachUse>
-  PiecesOfRows(std::size_t rows, const ForEachUse& for_each_use) : begin_(rows + 1, 0) {
-    for_each_use([&](int row, const Piece&) { ++begin_[static_cast<std::size_t>(row) + 1]; });
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    pieces_.resize(begin_.back());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for_each_use([&](int row, const Piece& piece) { pieces_[next[static_cast<std::size_t>(row)]++] = piece; });
-  }
+  // for_part(part, visit) calls visit(row, piece) for all there are in a part, the same twice over. On all threads.
+  template <class ForPart>
+  PiecesOfRows(std::size_t rows, std::size_t parts, const ForPart& for_part)
+      : pieces_(grouped<Piece, std::uint32_t>(parts, rows, for_part)) {}
 
-  // In the order in which they were visited.
+  // The same with one part: for_each_use(visit).
+  template <class ForEachUse>
+  PiecesOfRows(std::size_t rows, const ForEachUse& for_each_use)
+      : PiecesOfRows(rows, 1, [&](std::size_t, const auto& visit) { for_each_use(visit); }) {}
+
+  // In the order in which they were visited, part by part.
   [[nodiscard]] std::span<const Piece> of(int row) const {
     const auto at = static_cast<std::size_t>(row);
-    return {pieces_.data() + begin_[at], pieces_.data() + begin_[at + 1]};
+    return {pieces_.values.data() + pieces_.begin[at], pieces_.values.data() + pieces_.begin[at + 1]};
   }
 
  private:
-  std::vector<std::uint32_t> begin_;  // of each row, and the end
-  std::vector<Piece> pieces_;
+  Grouped<Piece, std::uint32_t> pieces_;
 };
 
 // By the numbers of cells, elements, contacts.
 using Incidence = PiecesOfRows<std::uint32_t>;
+
+// for_rows(number, visit) calls visit(row) for every row that one of `count` numbers has to do with.
+template <class ForRows>
+Incidence incidence_of(std::size_t rows, std::size_t count, const ForRows& for_rows) {
+  return Incidence(rows, chunk_count(count), [&](std::size_t part, const auto& visit) {
+    const Chunk chunk = chunk_of(count, part);
+    for (std::size_t number = chunk.begin; number < chunk.end; ++number) {
+      for_rows(number, [&](int row) { visit(row, static_cast<std::uint32_t>(number)); });
+    }
+  });
+}
 
 }  // namespace scree::thermal

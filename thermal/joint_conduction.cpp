@@ -81,8 +81,10 @@ class JointRows {
         form_(form),
         field_(field),
         rows_(rows),
-        contacts_at_(size, [this](const auto& visit) { this->visit_contacts(visit); }),
-        perfect_at_(conduction.perfect.empty() ? 0 : size, [this](const auto& visit) { this->visit_perfect(visit); }) {}
+        contacts_at_(incidence_of(size, conduction.conductances.size(),
+                                  [this](std::size_t contact, const auto& visit) { visit_rows_of_contact(contact, visit); })),
+        perfect_at_(incidence_of(conduction.perfect.empty() ? 0 : size, conduction.perfect.size(),
+                                 [this](std::size_t term, const auto& visit) { visit_rows_of_perfect(term, visit); })) {}
 
   void add_row(int row, RowSum& sum) const {
     if (!conduction_.perfect.empty()) {
@@ -96,31 +98,29 @@ class JointRows {
     return between_rows(temperature_difference(contacts_.contacts[contact], form_), rows_);
   }
 
+  // Terms come in the order of their contacts.
+  [[nodiscard]] bool is_perfect(std::size_t contact) const {
+    const auto before = [](const PerfectTerm<dim>& term, std::size_t other) { return term.contact < other; };
+    const auto found = std::lower_bound(conduction_.perfect.begin(), conduction_.perfect.end(), contact, before);
+    return found != conduction_.perfect.end() && found->contact == contact;
+  }
+
   template <class Visit>
-  void visit_contacts(const Visit& visit) const {
-    if (field_ == Field::phi) return;
-    auto perfect = conduction_.perfect.begin();
-    for (std::size_t c = 0; c < conduction_.conductances.size(); ++c) {
-      const bool is_perfect = perfect != conduction_.perfect.end() && perfect->contact == c;
-      if (is_perfect) ++perfect;
-      if (is_perfect || !(conduction_.conductances[c] > 0)) continue;
-      const TemperatureDifference<dim> between = difference(c);
-      for (int i = 0; i < 2 * dim; ++i) {
-        // A semi-edge leaves a third of its entries unused.
-        if (between.weights[i] != 0) visit(between.nodes[i].value(), static_cast<std::uint32_t>(c));
-      }
+  void visit_rows_of_contact(std::size_t contact, const Visit& visit) const {
+    if (field_ == Field::phi || !(conduction_.conductances[contact] > 0) || is_perfect(contact)) return;
+    const TemperatureDifference<dim> between = difference(contact);
+    for (int i = 0; i < 2 * dim; ++i) {
+      if (between.weights[i] != 0) visit(between.nodes[i].value());  // a semi-edge leaves a third of its entries unused
     }
   }
 
   template <class Visit>
-  void visit_perfect(const Visit& visit) const {
-    for (std::size_t t = 0; t < conduction_.perfect.size(); ++t) {
-      const PerfectTerm<dim>& of_nodes = conduction_.perfect[t];
-      if (of_nodes.of_phi.has_value() != (field_ == Field::phi)) continue;
-      if (is_tied(contacts_.contacts[of_nodes.contact], rows_)) continue;
-      const RowTerm<dim> term(of_nodes, rows_);
-      for (int i = 0; i < term.size; ++i) visit(term.rows[i], static_cast<std::uint32_t>(t));
-    }
+  void visit_rows_of_perfect(std::size_t number, const Visit& visit) const {
+    const PerfectTerm<dim>& of_nodes = conduction_.perfect[number];
+    if (of_nodes.of_phi.has_value() != (field_ == Field::phi)) return;
+    if (is_tied(contacts_.contacts[of_nodes.contact], rows_)) return;
+    const RowTerm<dim> term(of_nodes, rows_);
+    for (int i = 0; i < term.size; ++i) visit(term.rows[i]);
   }
 
   void add_contact(std::size_t contact, int row, RowSum& sum) const {

@@ -25,9 +25,8 @@ std::optional<RowNumbering> number_rows(const mesh::BlockMesh<dim>& mesh, const 
   Table<NodeId, NodeId> rows(mesh.nodes.size());
   for (std::size_t row = 0; row < first.size(); ++row) rows[first[row]] = NodeId(row);
   for (const NodeId node : mesh.nodes.ids()) rows[node] = rows[first_of[node]];
-  Incidence nodes(first.size(), [&](const auto& visit) {
-    for (const NodeId node : rows.ids()) visit(rows[node].value(), static_cast<std::uint32_t>(node.index()));
-  });
+  Incidence nodes =
+      incidence_of(first.size(), rows.size(), [&](std::size_t node, const auto& visit) { visit(rows[NodeId{node}].value()); });
   std::vector<int> order;
   order.reserve(first.size());
   for (const NodeId node : in_mesh_order) order.push_back(rows[node].value());
