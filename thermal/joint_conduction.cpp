@@ -81,10 +81,11 @@ class JointRows {
         form_(form),
         field_(field),
         rows_(rows),
-        contacts_at_(incidence_of(size, conduction.conductances.size(),
-                                  [this](std::size_t contact, const auto& visit) { visit_rows_of_contact(contact, visit); })),
+        contacts_at_(
+            incidence_of(size, conduction.conductances.size(),
+                         [this](std::size_t contact, const auto& visit) { this->visit_rows_of_contact(contact, visit); })),
         perfect_at_(incidence_of(conduction.perfect.empty() ? 0 : size, conduction.perfect.size(),
-                                 [this](std::size_t term, const auto& visit) { visit_rows_of_perfect(term, visit); })) {}
+                                 [this](std::size_t term, const auto& visit) { this->visit_rows_of_perfect(term, visit); })) {}
 
   void add_row(int row, RowSum& sum) const {
     if (!conduction_.perfect.empty()) {
