@@ -106,12 +106,8 @@ void BoxGrid<dim>::make_level(std::span<const Aabb<dim>> boxes, const std::vecto
   for_chunks(members.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) slots[i] = slot_of(level, boxes[members[i]]);
   });
-  auto sorted = grouped<std::uint32_t, std::uint32_t>(chunk_count(members.size()), std::size_t{1} << bits,
-                                                      [&](std::size_t part, const auto& visit) {
-                                                        const Chunk chunk = chunk_of(members.size(), part);
-                                                        for (std::size_t i = chunk.begin; i < chunk.end; ++i)
-                                                          visit(slots[i], members[i]);
-                                                      });
+  auto sorted = grouped_by_number<std::uint32_t, std::uint32_t>(
+      members.size(), std::size_t{1} << bits, [&](std::size_t i, const auto& visit) { visit(slots[i], members[i]); });
   for_chunks(members.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       order_[level.first + i] = sorted.values[i];

@@ -39,9 +39,10 @@ class NearFaces {
     });
   }
 
+  // The faces of one element are kept whatever is around.
   [[nodiscard]] bool is_near(const mesh::Face<dim>& face) const {
     const auto near = [&](NodeId node) { return near_[node.index()] != 0; };
-    return is_whole(face.block) || std::any_of(face.nodes.begin(), face.nodes.end(), near);
+    return is_whole(mesh_, face.block) || std::any_of(face.nodes.begin(), face.nodes.end(), near);
   }
 
  private:
@@ -68,12 +69,9 @@ class NearFaces {
     return boxes;
   }
 
-  // The faces of one element are kept whatever is around.
-  [[nodiscard]] bool is_whole(BlockId block) const { return mesh_.blocks[block].elements.size() == 1; }
-
   // Marks the nodes of the elements of a block of several that come near another one.
   void mark(BlockId block) {
-    if (is_whole(block)) return;
+    if (is_whole(mesh_, block)) return;
     const std::vector<Aabb<dim>> others = others_near(block, boxes_[block.index()]);
     if (others.empty()) return;
     for_each_element(block, [&](ElementId element) {

@@ -83,17 +83,6 @@ SCREE_INLINE void place(const Corner<dim>& vertices, const ShellOptions& options
   if constexpr (dim == 3) shell.shift = static_cast<float>(options.indentation * longest_edge(vertices) / 3);
 }
 
-// Which of an element's vertices is not in a face of it, without a branch.
-template <int dim>
-unsigned opposite_vertex(const std::array<NodeId, dim + 1>& element, const std::array<NodeId, dim>& face) {
-  auto missing = element[0].value();
-  for (int v = 1; v <= dim; ++v) missing ^= element[v].value();
-  for (const NodeId node : face) missing ^= node.value();
-  unsigned vertex = 0;
-  for (unsigned v = 1; v <= dim; ++v) vertex |= element[v].value() == missing ? v : 0;
-  return vertex;
-}
-
 constexpr std::array<std::array<int, 3>, 4> edges_of_sides = [] {
   std::array<std::array<int, 3>, 4> edges{};
   for (std::size_t e = 0; e < element_edges.size(); ++e) {
@@ -141,14 +130,14 @@ Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, con
   });
   shell.reach = static_cast<float>(options.tolerance * surface.lengths[first]);
   shell.block = surface.faces[first].block;
-  shell.whole = surface.mesh.blocks[shell.block].elements.size() == 1;
+  shell.whole = is_whole(surface.mesh, shell.block);
   shell.first = first;
   const bool with_edges = dim == 3 && !surface.face_edges.empty();
   for (std::size_t f = first.index(); f < end.index(); ++f) {
-    const unsigned plane = opposite_vertex<dim>(nodes, surface.faces[FaceId{f}].nodes);
+    const int plane = opposite_vertex(surface, FaceId{f});
     shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << plane);
     if constexpr (dim == 3) {
-      if (with_edges) add_edges(surface, static_cast<int>(plane), FaceId{f}, shell);
+      if (with_edges) add_edges(surface, plane, FaceId{f}, shell);
     }
   }
   return shell;

@@ -142,11 +142,6 @@ void add_node_normals(FaceId f, Surface<dim>& surface) {
   for (int i = 0; i < dim; ++i) surface.node_normals[surface.faces[f].nodes[i]] += weighted_normal(surface, f, i);
 }
 
-template <int dim>
-bool is_whole(const Surface<dim>& surface, BlockId block) {
-  return surface.mesh.blocks[block].elements.size() == 1;
-}
-
 // At a vertex of a block of one element, whose faces follow one another in the order of the vertices they are opposite to.
 template <int dim>
 Point<dim> node_normal(const Surface<dim>& surface, std::size_t first, int vertex) {
@@ -184,7 +179,7 @@ void add_rims(Surface<dim>& surface) {
     // Faces of two blocks have no node in common.
     for_chunks(blocks, [&](Chunk chunk) {
       for (std::size_t f = starts[chunk.begin]; f < starts[chunk.end]; ++f) {
-        if (!is_whole(surface, surface.faces[FaceId{f}].block)) add_node_normals<dim>(FaceId{f}, surface);
+        if (!is_whole(surface.mesh, surface.faces[FaceId{f}].block)) add_node_normals<dim>(FaceId{f}, surface);
       }
     });
   }

@@ -38,6 +38,12 @@ struct Surface {
   FoundTable<FaceId, std::array<EdgeId, 3>> face_edges;
 };
 
+// Has the block no element but one?
+template <int dim>
+bool is_whole(const mesh::BlockMesh<dim>& mesh, BlockId block) {
+  return mesh.blocks[block].elements.size() == 1;
+}
+
 // Of some of the boundary faces, in the order of their blocks and elements, without the rims.
 template <int dim>
 Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces);
@@ -62,6 +68,18 @@ Corners<dim> corners_of(const Surface<dim>& surface, FaceId face) {
   Corners<dim> corners;
   for (int i = 0; i < dim; ++i) corners[i] = surface.mesh.nodes[surface.faces[face].nodes[i]];
   return corners;
+}
+
+// Which vertex of its element a face is opposite to. Without a branch, which no one could foretell.
+template <int dim>
+int opposite_vertex(const Surface<dim>& surface, FaceId face) {
+  const auto& element = surface.mesh.elements[surface.faces[face].element];
+  auto missing = element[0].value();
+  for (int v = 1; v <= dim; ++v) missing ^= element[v].value();
+  for (const NodeId node : surface.faces[face].nodes) missing ^= node.value();
+  int vertex = 0;
+  for (int v = 1; v <= dim; ++v) vertex |= element[v].value() == missing ? v : 0;
+  return vertex;
 }
 
 // A face, which vertex of its element it is opposite to, and whether its block has no other element.

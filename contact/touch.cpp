@@ -43,15 +43,6 @@ bool comes_near(const Surface<3>& surface, FaceId face, const std::array<Point<3
   return low <= distance && high >= -distance;
 }
 
-// Which vertex of its element a face is opposite to.
-template <int dim>
-int plane_of(const Surface<dim>& surface, FaceId face) {
-  const auto& nodes = surface.mesh.elements[surface.faces[face].element];
-  const auto& own = surface.faces[face].nodes;
-  const auto beyond = [&](NodeId node) { return std::find(own.begin(), own.end(), node) == own.end(); };
-  return static_cast<int>(std::find_if(nodes.begin(), nodes.end(), beyond) - nodes.begin());
-}
-
 }  // namespace
 
 template <int dim>
@@ -77,8 +68,8 @@ template <int dim>
 std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const ContactOptions& options,
                                           const PointAndFace& pair) {
   const auto query = query_of<dim>(surface, semi_spring_weights<dim>(pair.corner, options.indentation), pair);
-  const bool whole = surface.mesh.blocks[surface.faces[pair.target].block].elements.size() == 1;
-  const KnownTarget known{plane_of(surface, pair.target), whole, false};
+  const KnownTarget known{opposite_vertex(surface, pair.target), is_whole(surface.mesh, surface.faces[pair.target].block),
+                          false};
   return touch_of<dim>(surface, pair, known, Eigen::Map<const Point<dim>>(query.point.data()),
                        measure(query, options.tolerance));
 }

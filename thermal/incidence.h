@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 
-#include "engine/base/chunks.h"
 #include "engine/base/grouped.h"
 
 namespace scree::thermal {
@@ -12,6 +12,8 @@ namespace scree::thermal {
 template <class Piece>
 class PiecesOfRows {
  public:
+  explicit PiecesOfRows(Grouped<Piece, std::uint32_t> by_row) : pieces_(std::move(by_row)) {}
+
   // for_part(part, visit) calls visit(row, piece) for all there are in a part, the same twice over. On all threads.
   template <class ForPart>
   PiecesOfRows(std::size_t rows, std::size_t parts, const ForPart& for_part)
@@ -38,12 +40,9 @@ using Incidence = PiecesOfRows<std::uint32_t>;
 // for_rows(number, visit) calls visit(row) for every row that one of `count` numbers has to do with.
 template <class ForRows>
 Incidence incidence_of(std::size_t rows, std::size_t count, const ForRows& for_rows) {
-  return Incidence(rows, chunk_count(count), [&](std::size_t part, const auto& visit) {
-    const Chunk chunk = chunk_of(count, part);
-    for (std::size_t number = chunk.begin; number < chunk.end; ++number) {
-      for_rows(number, [&](int row) { visit(row, static_cast<std::uint32_t>(number)); });
-    }
-  });
+  return Incidence(grouped_by_number<std::uint32_t, std::uint32_t>(count, rows, [&](std::size_t number, const auto& visit) {
+    for_rows(number, [&](int row) { visit(row, static_cast<std::uint32_t>(number)); });
+  }));
 }
 
 }  // namespace scree::thermal

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/chunks.h"
 #include "engine/base/threads.h"
 #include "engine/base/written_later.h"
 
@@ -105,6 +106,15 @@ class Grouping {
 template <class Value, class Start = std::size_t, class ForPart>
 Grouped<Value, Start> grouped(std::size_t parts, std::size_t groups, const ForPart& for_part) {
   return Grouping<Value, Start, ForPart>(parts, groups, for_part).take();
+}
+
+// The same for what belongs to each of `count` numbers, of which every chunk is a part: for_one(number, visit).
+template <class Value, class Start = std::size_t, class ForOne>
+Grouped<Value, Start> grouped_by_number(std::size_t count, std::size_t groups, const ForOne& for_one) {
+  return grouped<Value, Start>(chunk_count(count), groups, [&](std::size_t part, const auto& visit) {
+    const Chunk chunk = chunk_of(count, part);
+    for (std::size_t number = chunk.begin; number < chunk.end; ++number) for_one(number, visit);
+  });
 }
 
 }  // namespace scree
