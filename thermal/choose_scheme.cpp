@@ -13,9 +13,12 @@ namespace {
 
 // Measured on two cores (README, "Which steps"): only their ratios matter.
 constexpr double seconds_per_entry = 7e-10;  // of K, in a product with two columns
+// What an analysis must promise to save, of what it takes: most of the promise is not kept, as a quick ordering tells the least
+// only.
+constexpr double least_gain = 3;
 
-SolverUse use_of(const StepForecast& forecast, const HeatModel& model) {
-  return has_constant_properties(model) ? use_of_linear_steps(forecast) : use_of_newton_steps(forecast);
+SolverUse use_of(const StepForecast& forecast, bool linear) {
+  return linear ? use_of_linear_steps(forecast) : use_of_newton_steps(forecast);
 }
 
 // Of K, and of U where a conductivity depends on temperature.
@@ -29,22 +32,50 @@ SparseMatrix pattern_of(const HeatModel& model) {
   return FreeNodes(model).lower_block(SparseMatrix(model.conductance + model.varying->unit_conductance));
 }
 
-// Whether implicit steps will cost more than so many seconds, as far as can be told without the analysis of their
-// factorisation, which takes a fifth of what the explicit steps of a pile take.
-bool implicit_costs_more(double seconds, const HeatModel& model, LinearSolver solver, const SolverUse& use) {
-  const double multigrid = multigrid_seconds(entries_of(model), use);
-  if (solver == LinearSolver::multigrid) return multigrid > seconds;
-  if (solver == LinearSolver::automatic && multigrid <= seconds) return false;
+// What the run costs by stabilised steps, and by the cheapest mix of them and of implicit ones.
+class RunCosts {
+ public:
+  RunCosts(const HeatModel& model, const TimeOptions& options, double stable)
+      : options_(options),
+        stable_(stable),
+        linear_(has_constant_properties(model)),
+        product_(seconds_per_entry * static_cast<double>(entries_of(model))) {}
+
+  [[nodiscard]] double products() const { return forecast_steps(stable_, options_).products; }
+  [[nodiscard]] double stabilised() const { return products() * product_; }
+  [[nodiscard]] StepMix mix(const SolverCost& solver) const {
+    return cheapest_mix(
+        stable_, options_, product_, [linear = linear_](const StepForecast& steps) { return use_of(steps, linear); }, solver);
+  }
+  [[nodiscard]] double mixed(const SolverCost& solver) const {
+    const StepMix cheapest = mix(solver);
+    return cheapest.products * product_ + cheapest.use(solver);
+  }
+
+ private:
+  const TimeOptions& options_;
+  double stable_;
+  bool linear_;
+  double product_;
+};
+
+// Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of
+// their factorisation is needed: that takes a fifth of what the explicit steps of a pile take.
+bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
+  const double multigrid = costs.mixed(multigrid_cost(entries_of(model)));
+  if (solver == LinearSolver::multigrid) return multigrid <= costs.stabilised();
+  if (solver == LinearSolver::automatic && multigrid <= costs.stabilised()) return true;
   const auto unknowns = static_cast<double>(model.capacity.size()) - static_cast<double>(model.fixed_nodes.size());
-  if (least_cholesky_seconds(unknowns, use) > seconds) return true;
+  const double bearable = costs.stabilised() - least_gain * seconds_of_analysis(unknowns);
+  if (costs.mixed(least_cholesky_cost(unknowns)) > bearable) return false;
   const FactorSize quick = quick_factor_size(pattern_of(model));
-  return quick.possible && least_cholesky_seconds(unknowns, quick, use) > seconds;
+  return !quick.possible || costs.mixed(least_cholesky_cost(quick)) <= bearable;
 }
 
 ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const std::string& why) {
   const StepForecast forecast = forecast_steps(stable_step(model).step, options);
-  auto scheme = make_implicit_scheme(model, options.solver, use_of(forecast, model));
-  const std::string of_solver = scheme->solver_cost().why;
+  auto scheme = make_implicit_scheme(model, options.solver, use_of(forecast, has_constant_properties(model)));
+  const std::string of_solver = scheme->solver().why;
   return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};
 }
 
@@ -64,19 +95,23 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
     return implicit(model, options, "conditions change in time, which stabilised explicit steps do not do");
   }
   StableSteps stable(model);
-  const StepForecast forecast = forecast_steps(stable.at_start().step, options);
-  const SolverUse use = use_of(forecast, model);
-  const double stabilised = forecast.products * seconds_per_entry * static_cast<double>(entries_of(model));
-  if (implicit_costs_more(stabilised, model, options.solver, use)) {
+  const RunCosts costs(model, options, stable.at_start().step);
+  if (!implicit_may_pay(model, options.solver, costs)) {
     return {make_stabilised_scheme(model, std::move(stable)),
-            fmt::format("some {:.0f} products with K, less than implicit steps take", forecast.products)};
+            fmt::format("some {:.0f} products with K, less than implicit steps take", costs.products())};
   }
-  auto scheme = make_implicit_scheme(model, options.solver, use);
-  const SolverCost cost = scheme->solver_cost();
-  const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or implicit steps, about {:.2g} s; {}",
-                                          forecast.products, stabilised, cost.seconds, cost.why);
-  if (stabilised < cost.seconds) return {make_stabilised_scheme(model, std::move(stable)), figures};
-  return {std::move(scheme), figures};
+  auto scheme = make_implicit_scheme(model, options.solver, [&](const SolverCost& solver) { return costs.mixed(solver); });
+  const ChosenSolver solver = scheme->solver();
+  const StepMix mix = costs.mix(solver.cost);
+  const std::string of_mix =
+      mix.longest_short > 0 ? fmt::format("{:.0f} of them and implicit steps above {:.3g} s", mix.products, mix.longest_short)
+                            : "implicit steps";
+  const double mixed = costs.mixed(solver.cost);
+  const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or {}, about {:.2g} s; {}", costs.products(),
+                                          costs.stabilised(), of_mix, mixed, solver.why);
+  if (mixed > costs.stabilised()) return {make_stabilised_scheme(model, std::move(stable)), figures};
+  if (mix.longest_short == 0) return {std::move(scheme), figures};
+  return {make_mixed_scheme(make_stabilised_scheme(model, std::move(stable)), std::move(scheme), mix.longest_short), figures};
 }
 
 }  // namespace

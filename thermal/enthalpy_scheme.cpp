@@ -24,8 +24,8 @@ constexpr double rounding = 1e-12;      // of a temperature: an iteration that m
 
 class EnthalpyScheme : public TimeScheme {
  public:
-  EnthalpyScheme(const HeatModel& model, LinearSolver solver, const SolverUse& use)
-      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_, solver, use) {}
+  EnthalpyScheme(const HeatModel& model, LinearSolver solver, const CostOfRun& run)
+      : model_(model), drives_(model), balance_(model), free_(model), solver_(model, free_, solver, run) {}
 
   Step step(const Instant& from, double length) override {
     scale_ = gamma * length;
@@ -77,7 +77,7 @@ class EnthalpyScheme : public TimeScheme {
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
-  [[nodiscard]] SolverCost solver_cost() const override { return solver_.cost(); }
+  [[nodiscard]] ChosenSolver solver() const override { return solver_.chosen(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {
     return "SDIRK2 (L-stable, second order) of the enthalpy, Newton's iteration, steps from the tolerance; " + solver_.name();
@@ -148,12 +148,12 @@ class EnthalpyScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
-  return std::make_unique<EnthalpyScheme>(model, solver, use);
+std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver, const CostOfRun& run) {
+  return std::make_unique<EnthalpyScheme>(model, solver, run);
 }
 
-std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
-  return has_constant_properties(model) ? make_linear_scheme(model, solver, use) : make_enthalpy_scheme(model, solver, use);
+std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver, const CostOfRun& run) {
+  return has_constant_properties(model) ? make_linear_scheme(model, solver, run) : make_enthalpy_scheme(model, solver, run);
 }
 
 }  // namespace scree::thermal

@@ -23,10 +23,10 @@ constexpr double stiffness_of_single_precision = 1e5;
 
 }  // namespace
 
-HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use) : free_(free) {
+HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const CostOfRun& run) : free_(free) {
   const bool symmetric = !model.varying || model.varying->unit_conductance.nonZeros() == 0;
   if (symmetric) {
-    choose(model, asked, use);
+    choose(model, asked, run);
     return;
   }
   if (asked == LinearSolver::multigrid) {
@@ -36,14 +36,14 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   conductance_ = free.block(model.conductance);
   unit_conductance_ = free.block(model.varying->unit_conductance);
   factor_ = make_lu();
-  cost_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
+  chosen_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
 }
 
-void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const SolverUse& use) {
+void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const CostOfRun& run) {
   const std::int64_t entries = model.conductance.nonZeros();
   if (asked == LinearSolver::multigrid) {
     take_multigrid(model);
-    cost_ = {multigrid_seconds(entries, use), "asked for"};
+    chosen_ = {asked, multigrid_cost(entries), "asked for"};
     return;
   }
   conductance_ = free_.lower_block(model.conductance);
@@ -51,12 +51,11 @@ void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const Solver
   if (free_.size() == 0) return;
   const FactorSize size = factor_->analyse(conductance_);
   if (asked == LinearSolver::cholesky) {
-    cost_ = {cholesky_seconds(size, use), "asked for"};
+    chosen_ = {asked, cholesky_cost(size), "asked for"};
     return;
   }
-  ChosenSolver chosen = cheaper_solver(size, entries, use);
-  if (chosen.solver == LinearSolver::multigrid) take_multigrid(model);
-  cost_ = std::move(chosen.cost);
+  chosen_ = cheaper_solver(size, entries, run);
+  if (chosen_.solver == LinearSolver::multigrid) take_multigrid(model);
 }
 
 void HeatSolver::take_multigrid(const HeatModel& model) {

@@ -20,7 +20,7 @@ namespace scree::thermal {
 class HeatSolver {
  public:
   // Refers to both. Throws InputError if multigrid is asked for and cannot do it.
-  HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const SolverUse& use);
+  HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const CostOfRun& run);
 
   // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if it cannot be done.
   void prepare(const Linearised& at, double scale);
@@ -41,7 +41,7 @@ class HeatSolver {
   // Or set-ups of the multigrid: how often it was made ready for another matrix, the same for any number of threads.
   [[nodiscard]] std::int64_t factorisations() const { return factorisations_; }
   [[nodiscard]] std::string name() const;
-  [[nodiscard]] const SolverCost& cost() const { return cost_; }
+  [[nodiscard]] const ChosenSolver& chosen() const { return chosen_; }
 
  private:
   // A matrix is diag(diagonal) + scale (K + U diag(k)).
@@ -50,7 +50,7 @@ class HeatSolver {
     double scale = 0;
   };
 
-  void choose(const HeatModel& model, LinearSolver asked, const SolverUse& use);
+  void choose(const HeatModel& model, LinearSolver asked, const CostOfRun& run);
   void take_multigrid(const HeatModel& model);
   [[nodiscard]] SparseMatrix matrix_of(const Purpose& purpose, const Linearised& at) const;
   [[nodiscard]] bool is_ready_for(const Purpose& purpose) const;
@@ -66,7 +66,7 @@ class HeatSolver {
   std::unique_ptr<Multigrid> multigrid_;  // or that
   Purpose ready_for_;
   bool rough_will_do_ = false;  // whether single precision is enough for estimates
-  SolverCost cost_;
+  ChosenSolver chosen_;
   std::int64_t factorisations_ = 0;
 };
 

@@ -22,14 +22,14 @@ constexpr int refinements = 1;
 
 class LinearScheme : public TimeScheme {
  public:
-  LinearScheme(const HeatModel& model, LinearSolver solver, const SolverUse& use)
+  LinearScheme(const HeatModel& model, LinearSolver solver, const CostOfRun& run)
       : model_(model),
         drives_(model),
         balance_(model),
         free_(model),
         linear_(balance_.linearised(model.initial, drives_.at(0))),
         capacity_(free_.gather(linear_.capacity)),
-        solver_(model, free_, solver, use) {}
+        solver_(model, free_, solver, run) {}
 
   Step step(const Instant& from, double length) override {
     if (length != prepared_) prepare(length);
@@ -82,7 +82,7 @@ class LinearScheme : public TimeScheme {
   }
 
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
-  [[nodiscard]] SolverCost solver_cost() const override { return solver_.cost(); }
+  [[nodiscard]] ChosenSolver solver() const override { return solver_.chosen(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {
     return "SDIRK2 (L-stable, second order) with steps from the tolerance; " + solver_.name();
@@ -158,8 +158,8 @@ class LinearScheme : public TimeScheme {
 
 }  // namespace
 
-std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver, const SolverUse& use) {
-  return std::make_unique<LinearScheme>(model, solver, use);
+std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver, const CostOfRun& run) {
+  return std::make_unique<LinearScheme>(model, solver, run);
 }
 
 }  // namespace scree::thermal

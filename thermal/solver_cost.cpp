@@ -14,7 +14,6 @@ constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a s
 constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
 constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
 constexpr double seconds_per_cycle = 1e-8;     // an entry of the matrix, in an iteration
-// A solve of a step is a column to full accuracy or one to some digits, or both.
 constexpr double cycles_per_solve = 15;
 
 // How much more a quick ordering may leave than a thorough one: most in solid cubes (README, "Which steps").
@@ -30,34 +29,39 @@ double bytes(const FactorSize& factor) {
 
 }  // namespace
 
-double cholesky_seconds(const FactorSize& factor, const SolverUse& use) {
-  return use.matrices * seconds_per_flop * factor.flops + use.solves * seconds_per_factor * factor.entries;
+SolverCost cholesky_cost(const FactorSize& factor) {
+  return {seconds_per_flop * factor.flops, seconds_per_factor * factor.entries};
 }
 
-double multigrid_seconds(std::int64_t entries, const SolverUse& use) {
-  return static_cast<double>(entries) * (use.matrices * seconds_per_setup + use.solves * cycles_per_solve * seconds_per_cycle);
+SolverCost multigrid_cost(std::int64_t entries) {
+  const auto all = static_cast<double>(entries);
+  return {seconds_per_setup * all, cycles_per_solve * seconds_per_cycle * all};
 }
 
 // Solves with an eighth of the factor of a large plane grid (31/4 n log2 n entries with nested dissection; George, SIAM J.
 // Numer. Anal. 10, 1973). Solids have far more, small plane meshes hardly less.
-double least_cholesky_seconds(double unknowns, const SolverUse& use) {
-  return seconds_per_unknown * unknowns + use.solves * seconds_per_factor * unknowns * std::log2(unknowns);
+SolverCost least_cholesky_cost(double unknowns) {
+  return {0, seconds_per_factor * unknowns * std::log2(unknowns)};
 }
 
-double least_cholesky_seconds(double unknowns, const FactorSize& quick, const SolverUse& use) {
-  const FactorSize least{quick.entries / entries_of_quick_ordering, quick.flops / flops_of_quick_ordering, quick.possible};
-  return seconds_per_unknown * unknowns + cholesky_seconds(least, use);
+SolverCost least_cholesky_cost(const FactorSize& quick) {
+  return cholesky_cost({quick.entries / entries_of_quick_ordering, quick.flops / flops_of_quick_ordering, quick.possible});
 }
 
-ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const SolverUse& use) {
-  const double multigrid = multigrid_seconds(entries, use);
-  if (!factor.possible) return {LinearSolver::multigrid, {multigrid, "a factor would have too many entries"}};
-  const double cholesky = cholesky_seconds(factor, use);
+double seconds_of_analysis(double unknowns) {
+  return seconds_per_unknown * unknowns;
+}
+
+ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const CostOfRun& run) {
+  const SolverCost multigrid = multigrid_cost(entries);
+  if (!factor.possible) return {LinearSolver::multigrid, multigrid, "a factor would have too many entries"};
+  const SolverCost cholesky = cholesky_cost(factor);
+  const double by_multigrid = run(multigrid), by_cholesky = run(cholesky);
   const std::string figures =
       fmt::format("a factorisation of {:.3g} flops and {:.2g} GB: about {:.2g} s; multigrid about {:.2g} s", factor.flops,
-                  bytes(factor) / 1e9, cholesky, multigrid);
-  if (bytes(factor) > most_bytes || multigrid < cholesky) return {LinearSolver::multigrid, {multigrid, figures}};
-  return {LinearSolver::cholesky, {cholesky, figures}};
+                  bytes(factor) / 1e9, by_cholesky, by_multigrid);
+  if (bytes(factor) > most_bytes || by_multigrid < by_cholesky) return {LinearSolver::multigrid, multigrid, figures};
+  return {LinearSolver::cholesky, cholesky, figures};
 }
 
 }  // namespace scree::thermal

@@ -35,7 +35,7 @@ class SteadySolver {
         free_(model),
         solver_(model, free_, solver, use_of_steady_state) {}
 
-  [[nodiscard]] std::string words() const { return fmt::format("steady state; {} ({})", solver_.name(), solver_.cost().why); }
+  [[nodiscard]] std::string words() const { return fmt::format("steady state; {} ({})", solver_.name(), solver_.chosen().why); }
 
   HeatState solve() {
     HeatState state;

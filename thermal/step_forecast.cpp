@@ -7,9 +7,9 @@ namespace scree::thermal {
 
 namespace {
 
-// After a sudden start a step is this part of the time that has passed, from about the stable step up to the output interval
-// (README, "Which steps").
-constexpr double growth = 0.15;
+// After a sudden start a step may be this part of the time that has passed, from about the stable step up to the output
+// interval (README, "Which steps").
+constexpr double growth = 0.2;
 
 // What a matrix of Newton's iteration serves for, of the steps: measured 0.3 where properties change by a tenth.
 constexpr double steps_of_matrix = 0.3;
@@ -18,35 +18,78 @@ double longest_step(const TimeOptions& options) {
   return options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
 }
 
+// Steps of one length, and the time in which they are taken [s].
+struct EqualSteps {
+  double length;
+  double from;
+  double to;
+
+  [[nodiscard]] double count_before(double time) const { return std::max(0.0, std::min(time, to) - from) / length; }
+  [[nodiscard]] double count() const { return (to - from) / length; }
+};
+
+// Calls visit(EqualSteps) from the last and longest to the first, each length half of the one before it: as long as may be at
+// their time, and not below `first`.
+template <class Visit>
+void for_each_length(double first, const TimeOptions& options, const Visit& visit) {
+  double to = options.until, length = longest_step(options);
+  for (; length > first; length /= 2) {
+    const double from = length / growth;
+    if (from >= to) continue;
+    visit(EqualSteps{length, from, to});
+    to = from;
+  }
+  visit(EqualSteps{length, 0, to});
+}
+
+// What so many stabilised steps take, about.
+double products_of(const EqualSteps& steps, double stable) {
+  return steps.count() * 2 * std::sqrt(steps.length / stable);
+}
+
 }  // namespace
 
 StepForecast forecast_steps(double stable, const TimeOptions& options) {
-  const double every = longest_step(options);
-  const double later = std::max(0.0, options.until / every - 1);  // steps of an output interval each
-  const double span = std::max(1.0, every / stable);
   StepForecast forecast;
-  forecast.steps = 1 + std::log(span) / growth + later;
-  forecast.lengths = 1 + std::log2(span);  // each is half or twice the one before
-  // A stabilised step h takes 2 sqrt(h/stable) products; those that grow make a geometric series.
-  const double products_of_longest = 2 * std::sqrt(every / stable);
-  forecast.products = products_of_longest * (std::sqrt(growth) / (1 - std::exp(-growth / 2)) + later);
+  for_each_length(stable, options, [&](const EqualSteps& steps) {
+    forecast.steps += steps.count();
+    ++forecast.lengths;
+    forecast.products += products_of(steps, stable);
+  });
   return forecast;
 }
 
-WorkDone::WorkDone(const TimeOptions& options, double cost_exponent)
-    : every_(longest_step(options)), until_(options.until), exponent_(cost_exponent) {}
+StepMix cheapest_mix(double stable, const TimeOptions& options, double product,
+                     const std::function<SolverUse(const StepForecast&)>& use_of, const SolverCost& solver) {
+  const StepForecast all = forecast_steps(stable, options);
+  StepMix best{0, 0, use_of(all)};
+  const auto seconds = [&](const StepMix& mix) { return mix.products * product + mix.use(solver); };
+  StepForecast longer;
+  for_each_length(stable, options, [&](const EqualSteps& steps) {
+    if (longer.steps > 0) {
+      const StepMix mix{steps.length, all.products - longer.products, use_of(longer)};
+      if (seconds(mix) < seconds(best)) best = mix;
+    }
+    longer.steps += steps.count();
+    ++longer.lengths;
+    longer.products += products_of(steps, stable);
+  });
+  return best;
+}
+
+WorkDone::WorkDone(const TimeOptions& options, double cost_exponent) : options_(options), exponent_(cost_exponent) {}
 
 double WorkDone::part(double time) {
   if (first_ == 0) first_ = time;
-  return work(time) / work(until_);
+  return work(time) / work(options_.until);
 }
 
-// A step of growth t costs (growth t)^p, so those up to t add up to the integral of (growth t)^(p - 1) dt.
 double WorkDone::work(double time) const {
-  const double grown = std::min(time, every_);
-  const double later = std::max(0.0, time / every_ - 1);
-  if (exponent_ == 0) return 1 + std::log(std::max(1.0, grown / first_)) / growth + later;
-  return std::pow(growth, exponent_ - 1) / exponent_ * std::pow(grown / every_, exponent_) + later;
+  double work = 0;
+  for_each_length(first_, options_, [&](const EqualSteps& steps) {
+    work += steps.count_before(time) * std::pow(steps.length / options_.until, exponent_);
+  });
+  return work;
 }
 
 SolverUse use_of_linear_steps(const StepForecast& forecast) {

@@ -1,6 +1,8 @@
 // How many steps a run will take, about, before one is made: what its cost is estimated from.
 #pragma once
 
+#include <functional>
+
 #include "thermal/heat_options.h"
 #include "thermal/solver_cost.h"
 
@@ -15,6 +17,17 @@ struct StepForecast {
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.
 StepForecast forecast_steps(double stable, const TimeOptions& options);
 
+// Short steps stabilised, longer ones implicit: the longest short step of those that cost least.
+struct StepMix {
+  double longest_short = 0;  // [s]; 0 if all steps are implicit
+  double products = 0;       // of the short steps
+  SolverUse use;             // of the longer ones
+};
+
+// `product`: what one of them takes [s]; `use_of`: what implicit steps ask of their solver; `solver`: what that takes.
+StepMix cheapest_mix(double stable, const TimeOptions& options, double product,
+                     const std::function<SolverUse(const StepForecast&)>& use_of, const SolverCost& solver);
+
 // The part of a run's work that is done by a time, so that what is left can be told from it: after a sudden start most of the
 // steps are far shorter than those at the end, and the part of the time would say for long that nearly all is left to do.
 // Steps grow as for a forecast, from the first one that is seen.
@@ -27,10 +40,9 @@ class WorkDone {
   [[nodiscard]] double part(double time);
 
  private:
-  [[nodiscard]] double work(double time) const;  // in steps of an output interval
+  [[nodiscard]] double work(double time) const;
 
-  double every_;
-  double until_;
+  TimeOptions options_;
   double exponent_;
   double first_ = 0;
 };

@@ -61,8 +61,8 @@ class TimeScheme {
   [[nodiscard]] virtual Sums sums() const { return Sums::extended; }
   // What a step costs grows as this power of its length.
   [[nodiscard]] virtual double cost_exponent() const { return 0; }
-  // Of what solves its equations; nothing for a scheme without.
-  [[nodiscard]] virtual SolverCost solver_cost() const { return {}; }
+  // What solves its equations; without a reason for a scheme that solves none.
+  [[nodiscard]] virtual ChosenSolver solver() const { return {}; }
   [[nodiscard]] virtual std::string name() const = 0;
 
  protected:
@@ -73,15 +73,18 @@ class TimeScheme {
 
 // All refer to the model. The implicit scheme, linear where the properties are constant.
 std::unique_ptr<TimeScheme> make_implicit_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
-                                                 const SolverUse& use = {});
+                                                 const CostOfRun& run = SolverUse{});
 std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
-                                               const SolverUse& use = {});
+                                               const CostOfRun& run = SolverUse{});
 std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
-                                                 const SolverUse& use = {});
+                                                 const CostOfRun& run = SolverUse{});
 // These two throw InputError for a model that they cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 // `stable`: those of the model, if they are known already.
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable = {});
+// Steps of up to `longest_short` [s] by the one, longer ones by the other; both are of the same model.
+std::unique_ptr<TimeScheme> make_mixed_scheme(std::unique_ptr<TimeScheme> of_short, std::unique_ptr<TimeScheme> of_long,
+                                              double longest_short);
 
 // The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them (and in fourth
 // order those joined to these), and those that exchange heat with surroundings. Ascending.

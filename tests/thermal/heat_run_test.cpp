@@ -242,6 +242,29 @@ TEST(HeatRun, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
   }
 }
 
+TEST(HeatRun, ARunOfMixedStepsGoesOnFromAFileToTheBitBeforeTheChangeAndAfterIt) {
+  const auto file = scree::test::temp_folder() / "mixed.h5";
+  const HeatModel model = rubble_model<3>(1e6, both);
+  const TimeOptions options = times(1, 0.001, 0.05);
+  HeatRun whole(model, options);
+  ASSERT_THAT(whole.solver(), testing::HasSubstr("steps of up to"));
+  std::vector<HeatState> states;
+  for (const double time : {0.001, 0.002, 0.05}) {
+    whole.advance_to(time);
+    states.push_back(whole.state());
+  }
+  EXPECT_EQ(states.front().factorisations, 0);
+  EXPECT_GT(states.back().factorisations, 0);
+  for (std::size_t from = 0; from + 1 < states.size(); ++from) {
+    write(states[from], "key", file);
+    HeatRun resumed(model, options, read_state(file, "key"));
+    resumed.advance_to(0.05);
+    EXPECT_EQ(resumed.state().temperature, states.back().temperature) << from;
+    EXPECT_EQ(resumed.state().error, states.back().error);
+    EXPECT_EQ(resumed.state().ledger.by_boundary, states.back().ledger.by_boundary);
+  }
+}
+
 TEST(HeatRun, StepsDoNotDependOnHowOftenTheRunIsStopped) {
   const HeatModel model = rubble_model<2>(10, hot_left);
   HeatRun often(model, times(50, 10, 0.1));

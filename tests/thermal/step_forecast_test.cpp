@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -52,12 +53,66 @@ TEST(StepForecast, OfStepsAndTheirLengthsIsWithinAFactorOfFourOfThoseTaken) {
   }
 }
 
-TEST(StepForecast, OfProductsIsTheSumOverTheStepsThatGrow) {
-  const double stable = 0.5;
-  const double until = 5000;
+// One after the other: halves of the output interval, each as long as a fifth of the time that has passed allows.
+std::vector<double> steps_one_by_one(double first, const TimeOptions& options) {
+  std::vector<double> lengths;
+  for (double time = 0; time < options.until - 1e-9; time += lengths.back()) {
+    double length = options.output_every;
+    while (length > std::max(first, time / 5)) length /= 2;
+    lengths.push_back(length);
+  }
+  return lengths;
+}
+
+double products_of(const std::vector<double>& steps, double stable) {
   double sum = 0;
-  for (double length = 0.15 * until; length > 1e-12; length *= std::exp(-0.15)) sum += 2 * std::sqrt(length / stable);
-  EXPECT_NEAR(forecast_steps(stable, times(until, until)).products, sum, 1e-3 * sum);
+  for (const double length : steps) sum += 2 * std::sqrt(length / stable);
+  return sum;
+}
+
+TEST(StepForecast, IsWhatStepsThatGrowOneByOneAddUpTo) {
+  const double stable = 0.5;
+  for (const TimeOptions& options : {times(5000, 5000), times(5000, 1000), times(5000, 50)}) {
+    const std::vector<double> steps = steps_one_by_one(stable, options);
+    const StepForecast forecast = forecast_steps(stable, options);
+    EXPECT_NEAR(forecast.steps, static_cast<double>(steps.size()), 0.05 * forecast.steps);
+    EXPECT_NEAR(forecast.products, products_of(steps, stable), 0.05 * forecast.products);
+    EXPECT_EQ(forecast.lengths, static_cast<double>(std::set<double>(steps.begin(), steps.end()).size()));
+  }
+}
+
+// Every length may be the longest of the short ones.
+TEST(StepMix, CostsLeastOfAll) {
+  const double stable = 0.01;
+  const TimeOptions options = times(43200, 600);
+  const std::vector<double> steps = steps_one_by_one(stable, options);
+  const std::set<double> lengths(steps.begin(), steps.end());
+  std::set<double> taken;
+  for (const double solve : {1.0, 10.0, 1e2, 1e3}) {
+    for (const double matrix : {0.0, 1e2, 1e4}) {
+      const SolverCost solver{matrix, solve};
+      const auto seconds = [&](double longest_short) {
+        double sum = 0;
+        std::set<double> made;
+        for (const double length : steps) {
+          if (length > longest_short) made.insert(length);
+          sum += length > longest_short ? 4 * solve : 2 * std::sqrt(length / stable);
+        }
+        return sum + matrix * static_cast<double>(made.size());
+      };
+      double least = seconds(0);
+      for (const double length : lengths) least = std::min(least, length < options.output_every ? seconds(length) : least);
+      const StepMix mix = cheapest_mix(stable, options, 1, use_of_linear_steps, solver);
+      EXPECT_LE(seconds(mix.longest_short), 1.03 * least) << solve << ' ' << matrix;
+      EXPECT_NEAR(mix.products + mix.use(solver), seconds(mix.longest_short), 0.05 * least) << solve << ' ' << matrix;
+      taken.insert(mix.longest_short);
+    }
+  }
+  EXPECT_GE(taken.size(), 5);
+}
+
+TEST(StepMix, LeavesAllStepsImplicitWhereSolvesCostNothing) {
+  EXPECT_EQ(cheapest_mix(0.01, times(43200, 600), 1, use_of_linear_steps, {}).longest_short, 0);
 }
 
 TEST(StepForecast, WhereNothingConductsIsOneStepAnOutput) {
@@ -91,12 +146,16 @@ TEST(WorkDone, IsAboutThePartOfTheStepsThatARunHasTakenAndNotThatOfItsTime) {
 }
 
 TEST(WorkDone, OfStabilisedStepsIsThePartOfTheirProducts) {
-  const double stable = 0.5;
-  WorkDone work(times(5000, 1000), 0.5);
-  EXPECT_NEAR(work.part(200),
-              forecast_steps(stable, times(200, 200)).products / forecast_steps(stable, times(5000, 1000)).products, 0.02);
-  EXPECT_NEAR(work.part(3000),
-              forecast_steps(stable, times(3000, 1000)).products / forecast_steps(stable, times(5000, 1000)).products, 0.02);
+  const TimeOptions options = times(5000, 1000);
+  const std::vector<double> steps = steps_one_by_one(0.5, options);
+  WorkDone work(options, 0.5);
+  EXPECT_GT(work.part(steps.front()), 0);
+  double time = 0, products = 0;
+  for (const double length : steps) {
+    time += length;
+    products += 2 * std::sqrt(length / 0.5);
+    EXPECT_NEAR(work.part(time), products / products_of(steps, 0.5), 0.02) << time;
+  }
 }
 
 TEST(WorkDone, OfEqualStepsIsThePartOfTheTime) {

@@ -110,6 +110,40 @@ TEST(TimeScheme, EstimateTimesSafetyBoundsTheErrorForAnyStep) {
   }
 }
 
+// From far below the fastest time scale to the slowest, each length three times; the change from one scheme to the other
+// anywhere among them.
+TEST(TimeScheme, MixedStepsKeepTheEstimateAboveTheErrorWhereverTheyChangeOver) {
+  for (const double beta : {1.0, 1e3}) {
+    const HeatModel model = two_halves(beta);
+    const Modes exact(model);
+    const double first = 0.1 / exact.fastest();
+    for (double longest_short = 0.3 / exact.fastest(); longest_short < 1 / exact.slowest(); longest_short *= 5) {
+      const auto mixed = make_mixed_scheme(make_stabilised_scheme(model), make_implicit_scheme(model), longest_short);
+      Instant at{0, model.initial, Eigen::VectorXd::Zero(model.initial.size())};
+      double error = 0, estimate = 0;
+      for (double length = first; length < 1 / exact.slowest(); length *= 2) {
+        for (int n = 0; n < 3; ++n) {
+          const Step step = mixed->step(at, length);
+          at = {at.time + length, at.temperature + step.change, step.error};
+          error = std::max(error, (at.temperature - exact.after(at.time, model.initial)).lpNorm<Eigen::Infinity>());
+          estimate = std::max(estimate, step.error.lpNorm<Eigen::Infinity>());
+          EXPECT_LE(error, mixed->safety() * estimate) << beta << ' ' << longest_short << ' ' << length;
+        }
+      }
+      EXPECT_GT(mixed->factorisations(), 0);
+    }
+  }
+}
+
+TEST(TimeScheme, MixedStepsAreThoseOfTheSchemeThatTheirLengthBelongsTo) {
+  const HeatModel model = two_halves(1);
+  const auto mixed = make_mixed_scheme(make_stabilised_scheme(model), make_implicit_scheme(model), 2);
+  const Instant start{0, model.initial, Eigen::VectorXd::Zero(model.initial.size())};
+  EXPECT_EQ(mixed->step(start, 2).change, make_stabilised_scheme(model)->step(start, 2).change);
+  EXPECT_EQ(mixed->step(start, 2.1).change, make_implicit_scheme(model)->step(start, 2.1).change);
+  EXPECT_EQ(mixed->step(start, 1).change, make_stabilised_scheme(model)->step(start, 1).change);
+}
+
 TEST(TimeScheme, AStepFarAboveAllTimeScalesEndsAtTheMeanWithoutRinging) {
   const HeatModel model = two_halves(1e3);
   const auto scheme = make_implicit_scheme(model);
