@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "thermal/heat_solver.h"
 #include "thermal/problems.h"
 #include "thermal/quick_ordering.h"
 #include "thermal/stable_step.h"
@@ -24,12 +25,6 @@ SolverUse use_of(const StepForecast& forecast, bool linear) {
 // Of K, and of U where a conductivity depends on temperature.
 std::int64_t entries_of(const HeatModel& model) {
   return model.conductance.nonZeros() + (model.varying ? model.varying->unit_conductance.nonZeros() : 0);
-}
-
-// The pattern of what implicit steps factorise.
-SparseMatrix pattern_of(const HeatModel& model) {
-  if (!model.varying || model.varying->unit_conductance.nonZeros() == 0) return FreeNodes(model).lower_block(model.conductance);
-  return FreeNodes(model).lower_block(SparseMatrix(model.conductance + model.varying->unit_conductance));
 }
 
 // What the run costs by stabilised steps, and by the cheapest mix of them and of implicit ones.
@@ -62,13 +57,15 @@ class RunCosts {
 // Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of
 // their factorisation is needed: that takes a fifth of what the explicit steps of a pile take.
 bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
+  const double stabilised = costs.stabilised();
+  if (!is_symmetric(model)) return costs.mixed(lu_cost(quick_factor_size(model, FreeNodes(model)))) <= stabilised;
   const double multigrid = costs.mixed(multigrid_cost(entries_of(model)));
-  if (solver == LinearSolver::multigrid) return multigrid <= costs.stabilised();
-  if (solver == LinearSolver::automatic && multigrid <= costs.stabilised()) return true;
+  if (solver == LinearSolver::multigrid) return multigrid <= stabilised;
+  if (solver == LinearSolver::automatic && multigrid <= stabilised) return true;
   const auto unknowns = static_cast<double>(model.capacity.size()) - static_cast<double>(model.fixed_nodes.size());
-  const double bearable = costs.stabilised() - least_gain * seconds_of_analysis(unknowns);
+  const double bearable = stabilised - least_gain * seconds_of_analysis(unknowns);
   if (costs.mixed(least_cholesky_cost(unknowns)) > bearable) return false;
-  const FactorSize quick = quick_factor_size(pattern_of(model));
+  const FactorSize quick = quick_factor_size(model, FreeNodes(model));
   return !quick.possible || costs.mixed(least_cholesky_cost(quick)) <= bearable;
 }
 

@@ -14,9 +14,9 @@ struct ChosenScheme {
 };
 
 // As the options say or, if they leave it open, what costs least: stabilised explicit steps by the number of their products,
-// implicit ones by the symbolic analysis of their factorisation, which is not made where a quick ordering tells that it will
-// not pay. The choice is arithmetic with the model's figures and the same
-// everywhere. Refers to the model.
+// implicit ones by the symbolic analysis of their factorisation, which is made only where a quick ordering promises that it
+// will pay, or short steps by the one and longer ones by the other. The choice is arithmetic with the model's figures and the
+// same everywhere. Refers to the model.
 ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options);
 
 }  // namespace scree::thermal

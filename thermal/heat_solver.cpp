@@ -6,6 +6,7 @@
 
 #include "engine/base/check.h"
 #include "thermal/problems.h"
+#include "thermal/quick_ordering.h"
 
 namespace scree::thermal {
 
@@ -23,9 +24,12 @@ constexpr double stiffness_of_single_precision = 1e5;
 
 }  // namespace
 
+bool is_symmetric(const HeatModel& model) {
+  return !model.varying || model.varying->unit_conductance.nonZeros() == 0;
+}
+
 HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const CostOfRun& run) : free_(free) {
-  const bool symmetric = !model.varying || model.varying->unit_conductance.nonZeros() == 0;
-  if (symmetric) {
+  if (is_symmetric(model)) {
     choose(model, asked, run);
     return;
   }
@@ -36,7 +40,8 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   conductance_ = free.block(model.conductance);
   unit_conductance_ = free.block(model.varying->unit_conductance);
   factor_ = make_lu();
-  chosen_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
+  chosen_ = {LinearSolver::cholesky, lu_cost(quick_factor_size(model, free)),
+             "a conductivity depends on temperature, which makes the matrix unsymmetric"};
 }
 
 void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const CostOfRun& run) {

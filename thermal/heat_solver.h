@@ -17,6 +17,9 @@
 
 namespace scree::thermal {
 
+// Whether J is: no conductivity depends on temperature.
+bool is_symmetric(const HeatModel& model);
+
 class HeatSolver {
  public:
   // Refers to both. Throws InputError if multigrid is asked for and cannot do it.

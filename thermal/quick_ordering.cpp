@@ -4,9 +4,21 @@
 
 #include <amd.h>
 
+#include "thermal/heat_solver.h"
+
 namespace scree::thermal {
 
-FactorSize quick_factor_size(const SparseMatrix& lower) {
+namespace {
+
+SparseMatrix pattern_of(const HeatModel& model, const FreeNodes& free) {
+  if (is_symmetric(model)) return free.lower_block(model.conductance);
+  return free.lower_block(SparseMatrix(model.conductance + model.varying->unit_conductance));
+}
+
+}  // namespace
+
+FactorSize quick_factor_size(const HeatModel& model, const FreeNodes& free) {
+  const SparseMatrix lower = pattern_of(model, free);
   const auto size = static_cast<int>(lower.cols());
   std::vector<int> order(lower.cols());
   double info[AMD_INFO];

@@ -8,7 +8,8 @@
 namespace scree::thermal {
 
 // By approximate minimum degree (AMD; P. R. Amestoy, T. A. Davis, I. S. Duff, SIAM J. Matrix Anal. Appl. 17(4), 1996). Nested
-// dissection, which CHOLMOD tries as well, leaves less of solids: at most this. `lower`: the lower triangle.
-FactorSize quick_factor_size(const SparseMatrix& lower);
+// dissection, which CHOLMOD tries as well, leaves less of solids: at most this. UMFPACK orders alike and keeps twice as much.
+// Of the matrices that implicit steps of the model factorise.
+FactorSize quick_factor_size(const HeatModel& model, const FreeNodes& free);
 
 }  // namespace scree::thermal

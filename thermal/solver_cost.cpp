@@ -11,6 +11,7 @@ namespace {
 // Measured on two cores (README, "Which steps"): only their ratios matter.
 constexpr double seconds_per_flop = 2.5e-11;   // of a supernodal factorisation
 constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
+constexpr double lu_times_as_dear = 6;         // for each flop and entry, of which it has twice as many
 constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
 constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
 constexpr double seconds_per_cycle = 1e-8;     // an entry of the matrix, in an iteration
@@ -31,6 +32,11 @@ double bytes(const FactorSize& factor) {
 
 SolverCost cholesky_cost(const FactorSize& factor) {
   return {seconds_per_flop * factor.flops, seconds_per_factor * factor.entries};
+}
+
+SolverCost lu_cost(const FactorSize& quick) {
+  const SolverCost cholesky = cholesky_cost(quick);
+  return {2 * lu_times_as_dear * cholesky.matrix, 2 * lu_times_as_dear * cholesky.solve};
 }
 
 SolverCost multigrid_cost(std::int64_t entries) {

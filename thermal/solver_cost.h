@@ -34,6 +34,7 @@ struct FactorSize {
 };
 
 SolverCost cholesky_cost(const FactorSize& factor);
+SolverCost lu_cost(const FactorSize& quick);      // by a quick ordering (quick_ordering.h)
 SolverCost multigrid_cost(std::int64_t entries);  // of the matrix
 
 // The least that factorisations of so many unknowns cost: without a look at the matrix, and by an ordering of it

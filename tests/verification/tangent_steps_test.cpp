@@ -176,6 +176,25 @@ TEST(TangentSteps, AreChosenWhereTheyCostLess) {
   EXPECT_THAT(solver(1e7), testing::HasSubstr("Newton's iteration"));
 }
 
+// LU takes many times as long as Cholesky, which does where only the specific heat depends on temperature.
+TEST(TangentSteps, AreChosenForLongerWhereOthersNeedAnUnsymmetricMatrix) {
+  auto right = test::bar<3>(0.1, 10, 5, 0.1);
+  right.low[0] = 0.1;
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(0.1, 10, 5, 0.1), right});
+  HeatOptions options = test::options_for(mesh, 500);
+  options.joint.law = StiffnessFactor{1000};
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 700, "hot"));
+  const auto solver = [&](const Rock& rock) {
+    TimeOptions time;
+    time.until = 36000;
+    time.output_every = 600;
+    return HeatRun(make_heat_model(mesh, of(rock), test::matching_contacts(mesh), options), time).solver();
+  };
+  EXPECT_THAT(solver({"c of a formula", 2.0, test::curve("400 + T")}), testing::HasSubstr("Newton's iteration"));
+  EXPECT_THAT(solver({"both of formulas", test::curve("1 + 0.01*T"), test::curve("400 + T")}),
+              testing::Not(testing::HasSubstr("Newton's iteration")));
+}
+
 // The magnitudes of J, whatever the temperatures are.
 TEST(StableSteps, AreBoundedAtEveryTemperatureByTheLargestEigenvalue) {
   for (const Rock& rock : rocks()) {
