@@ -1,5 +1,7 @@
 #include "thermal/choose_scheme.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "thermal/heat_solver.h"
@@ -18,8 +20,8 @@ constexpr double seconds_per_entry = 7e-10;  // of K, in a product with two colu
 // only.
 constexpr double least_gain = 3;
 
-SolverUse use_of(const StepForecast& forecast, bool linear) {
-  return linear ? use_of_linear_steps(forecast) : use_of_newton_steps(forecast);
+UseOfSteps use_of_steps(const HeatModel& model) {
+  return has_constant_properties(model) ? use_of_linear_steps : use_of_newton_steps;
 }
 
 // Of K, and of U where a conductivity depends on temperature.
@@ -33,45 +35,46 @@ class RunCosts {
   RunCosts(const HeatModel& model, const TimeOptions& options, double stable)
       : options_(options),
         stable_(stable),
-        linear_(has_constant_properties(model)),
+        use_of_(use_of_steps(model)),
         product_(seconds_per_entry * static_cast<double>(entries_of(model))) {}
 
   [[nodiscard]] double products() const { return forecast_steps(stable_, options_).products; }
   [[nodiscard]] double stabilised() const { return products() * product_; }
-  [[nodiscard]] StepMix mix(const SolverCost& solver) const {
-    return cheapest_mix(
-        stable_, options_, product_, [linear = linear_](const StepForecast& steps) { return use_of(steps, linear); }, solver);
-  }
-  [[nodiscard]] double mixed(const SolverCost& solver) const {
-    const StepMix cheapest = mix(solver);
-    return cheapest.products * product_ + cheapest.use(solver);
+  [[nodiscard]] StepMix mixed(const SolverCost& solver) const {
+    return cheapest_mix(stable_, options_, product_, use_of_, solver);
   }
 
  private:
   const TimeOptions& options_;
   double stable_;
-  bool linear_;
+  UseOfSteps use_of_;
   double product_;
 };
 
+// Of LU, whose library tells nothing before it has factorised; nothing where the matrix is symmetric.
+std::optional<SolverCost> cost_of_lu(const HeatModel& model) {
+  if (is_symmetric(model)) return std::nullopt;
+  return lu_cost(quick_factor_size(model, FreeNodes(model)));
+}
+
 // Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of
 // their factorisation is needed: that takes a fifth of what the explicit steps of a pile take.
-bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
+bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs, const std::optional<SolverCost>& lu) {
   const double stabilised = costs.stabilised();
-  if (!is_symmetric(model)) return costs.mixed(lu_cost(quick_factor_size(model, FreeNodes(model)))) <= stabilised;
-  const double multigrid = costs.mixed(multigrid_cost(entries_of(model)));
+  if (lu) return costs.mixed(*lu).seconds <= stabilised;
+  const double multigrid = costs.mixed(multigrid_cost(entries_of(model))).seconds;
   if (solver == LinearSolver::multigrid) return multigrid <= stabilised;
   if (solver == LinearSolver::automatic && multigrid <= stabilised) return true;
   const auto unknowns = static_cast<double>(model.capacity.size()) - static_cast<double>(model.fixed_nodes.size());
   const double bearable = stabilised - least_gain * seconds_of_analysis(unknowns);
-  if (costs.mixed(least_cholesky_cost(unknowns)) > bearable) return false;
+  if (costs.mixed(least_cholesky_cost(unknowns)).seconds > bearable) return false;
   const FactorSize quick = quick_factor_size(model, FreeNodes(model));
-  return !quick.possible || costs.mixed(least_cholesky_cost(quick)) <= bearable;
+  return !quick.possible || costs.mixed(least_cholesky_cost(quick)).seconds <= bearable;
 }
 
 ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const std::string& why) {
   const StepForecast forecast = forecast_steps(stable_step(model).step, options);
-  auto scheme = make_implicit_scheme(model, options.solver, use_of(forecast, has_constant_properties(model)));
+  auto scheme = make_implicit_scheme(model, options.solver, use_of_steps(model)(forecast));
   const std::string of_solver = scheme->solver().why;
   return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};
 }
@@ -93,20 +96,21 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
   }
   StableSteps stable(model);
   const RunCosts costs(model, options, stable.at_start().step);
-  if (!implicit_may_pay(model, options.solver, costs)) {
+  const std::optional<SolverCost> lu = cost_of_lu(model);
+  if (!implicit_may_pay(model, options.solver, costs, lu)) {
     return {make_stabilised_scheme(model, std::move(stable)),
             fmt::format("some {:.0f} products with K, less than implicit steps take", costs.products())};
   }
-  auto scheme = make_implicit_scheme(model, options.solver, [&](const SolverCost& solver) { return costs.mixed(solver); });
+  auto scheme =
+      make_implicit_scheme(model, options.solver, [&](const SolverCost& solver) { return costs.mixed(solver).seconds; });
   const ChosenSolver solver = scheme->solver();
-  const StepMix mix = costs.mix(solver.cost);
+  const StepMix mix = costs.mixed(lu.value_or(solver.cost));
   const std::string of_mix =
       mix.longest_short > 0 ? fmt::format("{:.0f} of them and implicit steps above {:.3g} s", mix.products, mix.longest_short)
                             : "implicit steps";
-  const double mixed = costs.mixed(solver.cost);
   const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or {}, about {:.2g} s; {}", costs.products(),
-                                          costs.stabilised(), of_mix, mixed, solver.why);
-  if (mixed > costs.stabilised()) return {make_stabilised_scheme(model, std::move(stable)), figures};
+                                          costs.stabilised(), of_mix, mix.seconds, solver.why);
+  if (mix.seconds > costs.stabilised()) return {make_stabilised_scheme(model, std::move(stable)), figures};
   if (mix.longest_short == 0) return {std::move(scheme), figures};
   return {make_mixed_scheme(make_stabilised_scheme(model, std::move(stable)), std::move(scheme), mix.longest_short), figures};
 }

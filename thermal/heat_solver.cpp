@@ -6,7 +6,6 @@
 
 #include "engine/base/check.h"
 #include "thermal/problems.h"
-#include "thermal/quick_ordering.h"
 
 namespace scree::thermal {
 
@@ -40,8 +39,7 @@ HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolv
   conductance_ = free.block(model.conductance);
   unit_conductance_ = free.block(model.varying->unit_conductance);
   factor_ = make_lu();
-  chosen_ = {LinearSolver::cholesky, lu_cost(quick_factor_size(model, free)),
-             "a conductivity depends on temperature, which makes the matrix unsymmetric"};
+  chosen_.why = "a conductivity depends on temperature, which makes the matrix unsymmetric";
 }
 
 void HeatSolver::choose(const HeatModel& model, LinearSolver asked, const CostOfRun& run) {

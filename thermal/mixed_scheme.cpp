@@ -30,7 +30,7 @@ class MixedScheme : public TimeScheme {
   void take_matrix(const MatrixOrigin& origin) override { long_->take_matrix(origin); }
   [[nodiscard]] double safety() const override { return std::max(short_->safety(), long_->safety()); }
   [[nodiscard]] std::int64_t factorisations() const override { return long_->factorisations(); }
-  [[nodiscard]] Sums sums() const override { return Sums::extended; }
+  [[nodiscard]] Sums sums() const override { return long_->sums(); }
   [[nodiscard]] double cost_exponent() const override { return long_->cost_exponent(); }
   [[nodiscard]] ChosenSolver solver() const override { return long_->solver(); }
   [[nodiscard]] std::string name() const override {

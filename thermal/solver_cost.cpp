@@ -35,8 +35,7 @@ SolverCost cholesky_cost(const FactorSize& factor) {
 }
 
 SolverCost lu_cost(const FactorSize& quick) {
-  const SolverCost cholesky = cholesky_cost(quick);
-  return {2 * lu_times_as_dear * cholesky.matrix, 2 * lu_times_as_dear * cholesky.solve};
+  return cholesky_cost({2 * lu_times_as_dear * quick.entries, 2 * lu_times_as_dear * quick.flops, quick.possible});
 }
 
 SolverCost multigrid_cost(std::int64_t entries) {

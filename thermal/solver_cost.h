@@ -46,7 +46,7 @@ double seconds_of_analysis(double unknowns);
 // Which solver costs less: Cholesky or multigrid.
 struct ChosenSolver {
   LinearSolver solver = LinearSolver::cholesky;
-  SolverCost cost;
+  SolverCost cost;  // not told of LU
   std::string why;  // compares them
 };
 ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const CostOfRun& run);

@@ -25,7 +25,6 @@ struct EqualSteps {
   double to;
 
   [[nodiscard]] double count_before(double time) const { return std::max(0.0, std::min(time, to) - from) / length; }
-  [[nodiscard]] double count() const { return (to - from) / length; }
 };
 
 // Calls visit(EqualSteps) from the last and longest to the first, each length half of the one before it: as long as may be at
@@ -42,37 +41,33 @@ void for_each_length(double first, const TimeOptions& options, const Visit& visi
   visit(EqualSteps{length, 0, to});
 }
 
-// What so many stabilised steps take, about.
-double products_of(const EqualSteps& steps, double stable) {
-  return steps.count() * 2 * std::sqrt(steps.length / stable);
+// A stabilised step takes 2 sqrt(length/stable) products, about.
+void add(const EqualSteps& steps, double stable, StepForecast& forecast) {
+  const double count = steps.count_before(steps.to);
+  forecast.steps += count;
+  ++forecast.lengths;
+  forecast.products += count * 2 * std::sqrt(steps.length / stable);
 }
 
 }  // namespace
 
 StepForecast forecast_steps(double stable, const TimeOptions& options) {
   StepForecast forecast;
-  for_each_length(stable, options, [&](const EqualSteps& steps) {
-    forecast.steps += steps.count();
-    ++forecast.lengths;
-    forecast.products += products_of(steps, stable);
-  });
+  for_each_length(stable, options, [&](const EqualSteps& steps) { add(steps, stable, forecast); });
   return forecast;
 }
 
-StepMix cheapest_mix(double stable, const TimeOptions& options, double product,
-                     const std::function<SolverUse(const StepForecast&)>& use_of, const SolverCost& solver) {
+StepMix cheapest_mix(double stable, const TimeOptions& options, double product, UseOfSteps use_of, const SolverCost& solver) {
   const StepForecast all = forecast_steps(stable, options);
-  StepMix best{0, 0, use_of(all)};
-  const auto seconds = [&](const StepMix& mix) { return mix.products * product + mix.use(solver); };
+  StepMix best{0, 0, use_of(all)(solver)};
   StepForecast longer;
   for_each_length(stable, options, [&](const EqualSteps& steps) {
     if (longer.steps > 0) {
-      const StepMix mix{steps.length, all.products - longer.products, use_of(longer)};
-      if (seconds(mix) < seconds(best)) best = mix;
+      const double products = all.products - longer.products;
+      const double seconds = products * product + use_of(longer)(solver);
+      if (seconds < best.seconds) best = {steps.length, products, seconds};
     }
-    longer.steps += steps.count();
-    ++longer.lengths;
-    longer.products += products_of(steps, stable);
+    add(steps, stable, longer);
   });
   return best;
 }
@@ -86,9 +81,8 @@ double WorkDone::part(double time) {
 
 double WorkDone::work(double time) const {
   double work = 0;
-  for_each_length(first_, options_, [&](const EqualSteps& steps) {
-    work += steps.count_before(time) * std::pow(steps.length / options_.until, exponent_);
-  });
+  for_each_length(first_, options_,
+                  [&](const EqualSteps& steps) { work += steps.count_before(time) * std::pow(steps.length, exponent_); });
   return work;
 }
 

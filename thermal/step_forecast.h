@@ -1,8 +1,6 @@
 // How many steps a run will take, about, before one is made: what its cost is estimated from.
 #pragma once
 
-#include <functional>
-
 #include "thermal/heat_options.h"
 #include "thermal/solver_cost.h"
 
@@ -17,16 +15,20 @@ struct StepForecast {
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.
 StepForecast forecast_steps(double stable, const TimeOptions& options);
 
+// What implicit steps ask of their solver, where the properties are constant and where they are not.
+SolverUse use_of_linear_steps(const StepForecast& forecast);
+SolverUse use_of_newton_steps(const StepForecast& forecast);
+using UseOfSteps = SolverUse (*)(const StepForecast&);  // one of them
+
 // Short steps stabilised, longer ones implicit: the longest short step of those that cost least.
 struct StepMix {
   double longest_short = 0;  // [s]; 0 if all steps are implicit
   double products = 0;       // of the short steps
-  SolverUse use;             // of the longer ones
+  double seconds = 0;        // that all of them cost
 };
 
-// `product`: what one of them takes [s]; `use_of`: what implicit steps ask of their solver; `solver`: what that takes.
-StepMix cheapest_mix(double stable, const TimeOptions& options, double product,
-                     const std::function<SolverUse(const StepForecast&)>& use_of, const SolverCost& solver);
+// `product`: what one of them takes [s]; `solver`: what solves for the implicit ones.
+StepMix cheapest_mix(double stable, const TimeOptions& options, double product, UseOfSteps use_of, const SolverCost& solver);
 
 // The part of a run's work that is done by a time, so that what is left can be told from it: after a sudden start most of the
 // steps are far shorter than those at the end, and the part of the time would say for long that nearly all is left to do.
@@ -46,9 +48,5 @@ class WorkDone {
   double exponent_;
   double first_ = 0;
 };
-
-// What implicit steps ask of their solver, where the properties are constant and where they are not.
-SolverUse use_of_linear_steps(const StepForecast& forecast);
-SolverUse use_of_newton_steps(const StepForecast& forecast);
 
 }  // namespace scree::thermal

@@ -218,51 +218,44 @@ TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
   EXPECT_EQ(run.state().time, 7);
 }
 
-TEST(HeatRun, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
+// The states at these times, from each but the last of which a run goes on from a file to the same last one.
+std::vector<HeatState> resumed_to_the_bit(const HeatModel& model, const TimeOptions& options,
+                                          const std::vector<double>& stops) {
   const auto file = scree::test::temp_folder() / "resume.h5";
+  HeatRun whole(model, options);
+  std::vector<HeatState> states;
+  for (const double time : stops) {
+    whole.advance_to(time);
+    states.push_back(whole.state());
+  }
+  for (std::size_t from = 0; from + 1 < states.size(); ++from) {
+    write(states[from], "key", file);
+    HeatRun resumed(model, options, read_state(file, "key"));
+    resumed.advance_to(stops.back());
+    EXPECT_EQ(resumed.state().temperature, states.back().temperature) << from;
+    EXPECT_EQ(resumed.state().error, states.back().error);
+    EXPECT_EQ(resumed.state().steps, states.back().steps);
+    EXPECT_EQ(resumed.state().ledger.by_boundary, states.back().ledger.by_boundary);
+  }
+  return states;
+}
+
+TEST(HeatRun, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
+  const HeatModel model = rubble_model<3>(100, both);
   for (const Integrator integrator : {Integrator::implicit, Integrator::stabilised_explicit, Integrator::explicit_euler}) {
-    const HeatModel model = rubble_model<3>(100, both);
     TimeOptions options = times(0.33, 0.1, 0.05);
     options.integrator = integrator;
-    HeatRun whole(model, options);
-    std::vector<HeatState> states;
-    for (const double time : {0.1, 0.2, 0.1 * 3, 0.33}) {
-      whole.advance_to(time);
-      states.push_back(whole.state());
-    }
-    for (std::size_t from = 0; from + 1 < states.size(); ++from) {
-      write(states[from], "key", file);
-      HeatRun resumed(model, options, read_state(file, "key"));
-      resumed.advance_to(0.33);
-      EXPECT_EQ(resumed.state().temperature, states.back().temperature) << from;
-      EXPECT_EQ(resumed.state().error, states.back().error);
-      EXPECT_EQ(resumed.state().steps, states.back().steps);
-      EXPECT_EQ(resumed.state().ledger.by_boundary, states.back().ledger.by_boundary);
-    }
+    resumed_to_the_bit(model, options, {0.1, 0.2, 0.1 * 3, 0.33});
   }
 }
 
 TEST(HeatRun, ARunOfMixedStepsGoesOnFromAFileToTheBitBeforeTheChangeAndAfterIt) {
-  const auto file = scree::test::temp_folder() / "mixed.h5";
   const HeatModel model = rubble_model<3>(1e6, both);
   const TimeOptions options = times(1, 0.001, 0.05);
-  HeatRun whole(model, options);
-  ASSERT_THAT(whole.solver(), testing::HasSubstr("steps of up to"));
-  std::vector<HeatState> states;
-  for (const double time : {0.001, 0.002, 0.05}) {
-    whole.advance_to(time);
-    states.push_back(whole.state());
-  }
+  ASSERT_THAT(HeatRun(model, options).solver(), testing::HasSubstr("steps of up to"));
+  const std::vector<HeatState> states = resumed_to_the_bit(model, options, {0.001, 0.002, 0.05});
   EXPECT_EQ(states.front().factorisations, 0);
   EXPECT_GT(states.back().factorisations, 0);
-  for (std::size_t from = 0; from + 1 < states.size(); ++from) {
-    write(states[from], "key", file);
-    HeatRun resumed(model, options, read_state(file, "key"));
-    resumed.advance_to(0.05);
-    EXPECT_EQ(resumed.state().temperature, states.back().temperature) << from;
-    EXPECT_EQ(resumed.state().error, states.back().error);
-    EXPECT_EQ(resumed.state().ledger.by_boundary, states.back().ledger.by_boundary);
-  }
 }
 
 TEST(HeatRun, StepsDoNotDependOnHowOftenTheRunIsStopped) {
