@@ -36,7 +36,6 @@ set(BLA_VENDOR Generic)
 find_package(LAPACK REQUIRED)
 scree_library(amd_api amd amd.h suitesparse)
 scree_library(cholmod_api cholmod cholmod.h suitesparse)
-scree_library(umfpack_api umfpack umfpack.h suitesparse)
 
 # HDF5 is linked into programs: its shared library loads thirty others (curl, Kerberos, GnuTLS) to read files over networks, which
 # takes as long as a small run. Modules take the shared one, as Debian's static one is not built for them.

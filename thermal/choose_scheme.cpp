@@ -1,10 +1,8 @@
 #include "thermal/choose_scheme.h"
 
-#include <optional>
-
 #include <fmt/format.h>
 
-#include "thermal/heat_solver.h"
+#include "thermal/kirchhoff_matrix.h"
 #include "thermal/problems.h"
 #include "thermal/quick_ordering.h"
 #include "thermal/stable_step.h"
@@ -21,7 +19,8 @@ constexpr double seconds_per_entry = 7e-10;  // of K, in a product with two colu
 constexpr double least_gain = 3;
 
 UseOfSteps use_of_steps(const HeatModel& model) {
-  return has_constant_properties(model) ? use_of_linear_steps : use_of_newton_steps;
+  if (has_constant_properties(model)) return use_of_linear_steps;
+  return is_symmetric(model) ? use_of_newton_steps : use_of_unsymmetric_steps;
 }
 
 // Of K, and of U where a conductivity depends on temperature.
@@ -51,17 +50,10 @@ class RunCosts {
   double product_;
 };
 
-// Of LU, whose library tells nothing before it has factorised; nothing where the matrix is symmetric.
-std::optional<SolverCost> cost_of_lu(const HeatModel& model) {
-  if (is_symmetric(model)) return std::nullopt;
-  return lu_cost(quick_factor_size(model, FreeNodes(model)));
-}
-
 // Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of
 // their factorisation is needed: that takes a fifth of what the explicit steps of a pile take.
-bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs, const std::optional<SolverCost>& lu) {
+bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
   const double stabilised = costs.stabilised();
-  if (lu) return costs.mixed(*lu).seconds <= stabilised;
   const double multigrid = costs.mixed(multigrid_cost(entries_of(model))).seconds;
   if (solver == LinearSolver::multigrid) return multigrid <= stabilised;
   if (solver == LinearSolver::automatic && multigrid <= stabilised) return true;
@@ -96,15 +88,14 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
   }
   StableSteps stable(model);
   const RunCosts costs(model, options, stable.at_start().step);
-  const std::optional<SolverCost> lu = cost_of_lu(model);
-  if (!implicit_may_pay(model, options.solver, costs, lu)) {
+  if (!implicit_may_pay(model, options.solver, costs)) {
     return {make_stabilised_scheme(model, std::move(stable)),
             fmt::format("some {:.0f} products with K, less than implicit steps take", costs.products())};
   }
   auto scheme =
       make_implicit_scheme(model, options.solver, [&](const SolverCost& solver) { return costs.mixed(solver).seconds; });
   const ChosenSolver solver = scheme->solver();
-  const StepMix mix = costs.mixed(lu.value_or(solver.cost));
+  const StepMix mix = costs.mixed(solver.cost);
   const std::string of_mix =
       mix.longest_short > 0 ? fmt::format("{:.0f} of them and implicit steps above {:.3g} s", mix.products, mix.longest_short)
                             : "implicit steps";

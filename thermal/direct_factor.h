@@ -1,4 +1,4 @@
-// Factorisations of sparse matrices. CHOLMOD, UMFPACK and BLAS stand in a library of their own (libscree_factor.so) that is
+// Factorisations of sparse matrices. CHOLMOD and BLAS stand in a library of their own (libscree_factor.so) that is
 // loaded by the first of them: it takes as long to load as a small run that needs none takes in all. CHOLMOD orders and
 // analyses; numbers are factorised and solved with here, on all threads (supernodal_factor.h, supernodal_solve.h).
 #pragma once
@@ -23,14 +23,14 @@ class DirectFactor {
   DirectFactor(const DirectFactor&) = delete;
   DirectFactor& operator=(const DirectFactor&) = delete;
 
-  // The symbolic part; its size if that is known before the numeric one.
+  // The symbolic part.
   virtual FactorSize analyse(const Matrix& matrix) = 0;
   // A matrix of the pattern that was analysed, or of the first if none was.
   virtual void factorise(const Matrix& matrix) = 0;
   // Needs factorise().
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
-  // The same by the factor's values rounded to single precision, if there are any: half as much to read.
-  virtual Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) { return solve(rhs); }
+  // The same by the factor's values rounded to single precision: half as much to read.
+  virtual Eigen::MatrixXd estimate(const Eigen::MatrixXd& rhs) = 0;
   [[nodiscard]] virtual bool sound() const = 0;
 };
 
@@ -50,13 +50,10 @@ class CholeskyAnalysis {
   [[nodiscard]] virtual DenseKernels kernels() const = 0;
 };
 
-// Supernodal Cholesky; reads the lower triangle. Both throw RunError if the library is not there.
+// Supernodal Cholesky; reads the lower triangle. Throws RunError if the library is not there.
 std::unique_ptr<DirectFactor> make_cholesky();
-// LU.
-std::unique_ptr<DirectFactor> make_lu();
 
 }  // namespace scree::thermal
 
 // What the library exports; the caller owns what they return.
 extern "C" scree::thermal::CholeskyAnalysis* scree_make_cholesky();
-extern "C" scree::thermal::DirectFactor* scree_make_lu();

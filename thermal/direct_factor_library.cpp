@@ -1,7 +1,6 @@
 #include <dlfcn.h>
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/UmfPackSupport>
 
 #include "thermal/direct_factor.h"
 
@@ -88,36 +87,10 @@ class Cholmod : public CholeskyAnalysis {
   Supernodes cholesky_;
 };
 
-class Lu : public DirectFactor {
- public:
-  Lu() { use_one_blas_thread(); }
-  void factorise(const Matrix& matrix) override {
-    kept_ = matrix;  // the library reads it again when it solves
-    if (!analysed_) analyse(kept_);
-    lu_.factorize(kept_);
-  }
-  FactorSize analyse(const Matrix& matrix) override {
-    lu_.analyzePattern(matrix);
-    analysed_ = true;
-    return {};  // known only after the factorisation
-  }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return lu_.solve(rhs); }
-  [[nodiscard]] bool sound() const override { return lu_.info() == Eigen::Success; }
-
- private:
-  bool analysed_ = false;
-  Matrix kept_;
-  Eigen::UmfPackLU<Matrix> lu_;
-};
-
 }  // namespace
 
 }  // namespace scree::thermal
 
 scree::thermal::CholeskyAnalysis* scree_make_cholesky() {
   return new scree::thermal::Cholmod;
-}
-
-scree::thermal::DirectFactor* scree_make_lu() {
-  return new scree::thermal::Lu;
 }

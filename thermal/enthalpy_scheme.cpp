@@ -116,7 +116,7 @@ class EnthalpyScheme : public TimeScheme {
       if (slow && moved <= rounding * stage.temperature.lpNorm<Eigen::Infinity>()) return true;
       if (slow) linearise(stage, balance_.linearised(stage.temperature, drives_.at(stage.time)));
       before = left;
-      const Eigen::VectorXd change = solver_.estimate(residual);
+      const Eigen::VectorXd change = solver_.correction(residual);
       moved = change.lpNorm<Eigen::Infinity>();
       stage.temperature += free_.scatter(change);
     }

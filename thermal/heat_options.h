@@ -74,7 +74,7 @@ enum class Integrator {
 // How implicit steps and the steady state solve their equations.
 enum class LinearSolver {
   automatic,  // whichever costs less, if it has the memory
-  cholesky,   // a factorisation; LU where k depends on temperature
+  cholesky,   // a factorisation
   multigrid,  // conjugate gradients with algebraic multigrid
 };
 

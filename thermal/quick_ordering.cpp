@@ -4,7 +4,7 @@
 
 #include <amd.h>
 
-#include "thermal/heat_solver.h"
+#include "thermal/kirchhoff_matrix.h"
 
 namespace scree::thermal {
 

@@ -8,7 +8,7 @@
 namespace scree::thermal {
 
 // By approximate minimum degree (AMD; P. R. Amestoy, T. A. Davis, I. S. Duff, SIAM J. Matrix Anal. Appl. 17(4), 1996). Nested
-// dissection, which CHOLMOD tries as well, leaves less of solids: at most this. UMFPACK orders alike and keeps twice as much.
+// dissection, which CHOLMOD tries as well, leaves less of solids: at most this.
 // Of the matrices that implicit steps of the model factorise.
 FactorSize quick_factor_size(const HeatModel& model, const FreeNodes& free);
 

@@ -11,7 +11,6 @@ namespace {
 // Measured on two cores (README, "Which steps"): only their ratios matter.
 constexpr double seconds_per_flop = 2.5e-11;   // of a supernodal factorisation
 constexpr double seconds_per_factor = 1.2e-9;  // an entry of the factor, in a solve
-constexpr double lu_times_as_dear = 6;         // for each flop and entry, of which it has twice as many
 constexpr double seconds_per_unknown = 1e-5;   // of the symbolic analysis
 constexpr double seconds_per_setup = 1.5e-7;   // an entry of the matrix, to make the coarse levels
 constexpr double seconds_per_cycle = 1e-8;     // an entry of the matrix, in an iteration
@@ -32,10 +31,6 @@ double bytes(const FactorSize& factor) {
 
 SolverCost cholesky_cost(const FactorSize& factor) {
   return {seconds_per_flop * factor.flops, seconds_per_factor * factor.entries};
-}
-
-SolverCost lu_cost(const FactorSize& quick) {
-  return cholesky_cost({2 * lu_times_as_dear * quick.entries, 2 * lu_times_as_dear * quick.flops, quick.possible});
 }
 
 SolverCost multigrid_cost(std::int64_t entries) {

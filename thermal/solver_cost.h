@@ -23,6 +23,7 @@ struct SolverUse {
   [[nodiscard]] double operator()(const SolverCost& cost) const { return matrices * cost.matrix + solves * cost.solve; }
 };
 inline constexpr SolverUse use_of_steady_state{1, 2};
+inline constexpr SolverUse use_of_unsymmetric_steady_state{1, 8};
 
 // What a run takes by a solver of such a cost [s]: a SolverUse, or more than that.
 using CostOfRun = std::function<double(const SolverCost&)>;
@@ -34,7 +35,6 @@ struct FactorSize {
 };
 
 SolverCost cholesky_cost(const FactorSize& factor);
-SolverCost lu_cost(const FactorSize& quick);      // by a quick ordering (quick_ordering.h)
 SolverCost multigrid_cost(std::int64_t entries);  // of the matrix
 
 // The least that factorisations of so many unknowns cost: without a look at the matrix, and by an ordering of it
@@ -46,7 +46,7 @@ double seconds_of_analysis(double unknowns);
 // Which solver costs less: Cholesky or multigrid.
 struct ChosenSolver {
   LinearSolver solver = LinearSolver::cholesky;
-  SolverCost cost;  // not told of LU
+  SolverCost cost;
   std::string why;  // compares them
 };
 ChosenSolver cheaper_solver(const FactorSize& factor, std::int64_t entries, const CostOfRun& run);

@@ -75,7 +75,8 @@ class StabilisedScheme : public TimeScheme {
     linearise(model.initial);
     if (!has_constant_properties(model)) changing_ = std::move(stable);
     resize({&start_, &newer_, &older_});
-    if (by_rates()) resize({&rates_, &beside_});
+    if (!sharing_.empty()) resize({&rates_, &beside_});
+    if (conducts_by_temperature()) resize({&beside_, &conducted_});
   }
 
   Step step(const Instant& from, double length) override {
@@ -87,7 +88,7 @@ class StabilisedScheme : public TimeScheme {
       newer_.middleRows(row, rows) = first_coefficient(stages) * start_.middleRows(row, rows);
     });
     WatchedMean mean(watched_);
-    by_rates() ? advance_by_rates(stages, length, mean) : advance(stages, length, mean);
+    advance_all(stages, length, mean);
     rates(newer_, length, older_);  // h L D
     Step result = along_tangent(from, estimate_of(stages));
     result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages), changing_.has_value()}};
@@ -202,7 +203,7 @@ class StabilisedScheme : public TimeScheme {
   // h L x.
   void rates(const Columns& x, double length, Columns& result) {
     if (conducts_by_temperature()) {
-      conducted_ = linear_.conductivity.asDiagonal() * x;
+      conduct(x);
       lay_beside(conducted_);
     }
     for_each_flow(x, [&](int row, const Pair& flow) {
@@ -221,6 +222,12 @@ class StabilisedScheme : public TimeScheme {
     } else {
       balance_.flows().for_each_flow<2>(x.data(), [&](int row, const double* flow) { use(row, ConstPair(flow)); });
     }
+  }
+
+  void conduct(const Columns& x) {
+    for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
+      conducted_.middleRows(row, rows) = linear_.conductivity.segment(row, rows).asDiagonal() * x.middleRows(row, rows);
+    });
   }
 
   // Those of U, where a conductivity depends on temperature.
@@ -242,25 +249,42 @@ class StabilisedScheme : public TimeScheme {
   }
 
   // Stages 2 to `stages`, each in the place of the one before the last.
+  void advance_all(int stages, double length, WatchedMean& mean) {
+    if (!sharing_.empty()) {
+      advance_by_rates(stages, length, mean);
+    } else if (conducts_by_temperature()) {
+      conduct(newer_);
+      advance<true>(stages, length, mean);
+    } else {
+      advance<false>(stages, length, mean);
+    }
+  }
+
+  template <bool by_temperature>
   void advance(int stages, double length, WatchedMean& mean) {
     for (int j = 2; j <= stages; ++j) {
       const Coefficients with = coefficients(j, stages);
+      if constexpr (by_temperature) lay_beside(conducted_);
       balance_.flows().for_each_part<2>(newer_.data(), [&](int first, int rows) {
         mean.advance(j, with, newer_, first, rows);
         return [with, scale = with.product * length, newer = newer_.data(), older = older_.data(), start = start_.data(),
-                loss = linear_.loss.data(), inverse = inverse_.data()](int row, const double* flow) {
+                loss = linear_.loss.data(), inverse = inverse_.data(), beside = beside_.data(), conducted = conducted_.data(),
+                conductivity = linear_.conductivity.data()](int row, const double* flow) {
           const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
           const ConstPair here(newer + at);
           Eigen::Map<Pair> increment(older + at);
-          increment = with.mu * here + with.nu * increment - (scale * inverse[row]) * (ConstPair(flow) + loss[row] * here) +
-                      with.start * ConstPair(start + at);
+          Pair leaving = ConstPair(flow) + loss[row] * here;
+          if constexpr (by_temperature) leaving += ConstPair(beside + at);
+          increment =
+              with.mu * here + with.nu * increment - (scale * inverse[row]) * leaving + with.start * ConstPair(start + at);
+          if constexpr (by_temperature) Eigen::Map<Pair>(conducted + at) = conductivity[row] * increment;
         };
       });
       older_.swap(newer_);
     }
   }
 
-  // The same where a stage takes more than a product with K.
+  // The same in fourth order.
   void advance_by_rates(int stages, double length, WatchedMean& mean) {
     for (int j = 2; j <= stages; ++j) {
       const Coefficients with = coefficients(j, stages);
@@ -272,7 +296,6 @@ class StabilisedScheme : public TimeScheme {
   }
 
   [[nodiscard]] bool conducts_by_temperature() const { return !balance_.unit_flows().empty(); }
-  [[nodiscard]] bool by_rates() const { return !sharing_.empty() || conducts_by_temperature(); }
 
   using Pair = Eigen::Array2d;
   using ConstPair = Eigen::Map<const Pair>;
@@ -291,7 +314,7 @@ class StabilisedScheme : public TimeScheme {
   std::vector<NodeId> watched_;
   // Of the step: h C^-1 F at its start, and D of the last two stages.
   Columns start_, newer_, older_;
-  // Where a stage takes more than a product with K: h L D, what a second product gave, and k D.
+  // Where a stage takes more than a product with K: h L D in fourth order, what a second product gave, and k D.
   Columns rates_, beside_, conducted_;
 };
 

@@ -33,7 +33,7 @@ class SteadySolver {
         drive_(drives_.at(0)),
         balance_(model),
         free_(model),
-        solver_(model, free_, solver, use_of_steady_state) {}
+        solver_(model, free_, solver, is_symmetric(model) ? use_of_steady_state : use_of_unsymmetric_steady_state) {}
 
   [[nodiscard]] std::string words() const { return fmt::format("steady state; {} ({})", solver_.name(), solver_.chosen().why); }
 

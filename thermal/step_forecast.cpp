@@ -14,6 +14,9 @@ constexpr double growth = 0.2;
 // What a matrix of Newton's iteration serves for, of the steps: measured 0.3 where properties change by a tenth.
 constexpr double steps_of_matrix = 0.3;
 
+// What solving for an unsymmetric matrix takes of solves for a symmetric one near it.
+constexpr double solves_of_unsymmetric = 4;
+
 double longest_step(const TimeOptions& options) {
   return options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
 }
@@ -92,6 +95,11 @@ SolverUse use_of_linear_steps(const StepForecast& forecast) {
 
 SolverUse use_of_newton_steps(const StepForecast& forecast) {
   return {std::max(forecast.lengths, steps_of_matrix * forecast.steps), 7 * forecast.steps};
+}
+
+SolverUse use_of_unsymmetric_steps(const StepForecast& forecast) {
+  const SolverUse symmetric = use_of_newton_steps(forecast);
+  return {symmetric.matrices, solves_of_unsymmetric * symmetric.solves};
 }
 
 }  // namespace scree::thermal

@@ -18,7 +18,8 @@ StepForecast forecast_steps(double stable, const TimeOptions& options);
 // What implicit steps ask of their solver, where the properties are constant and where they are not.
 SolverUse use_of_linear_steps(const StepForecast& forecast);
 SolverUse use_of_newton_steps(const StepForecast& forecast);
-using UseOfSteps = SolverUse (*)(const StepForecast&);  // one of them
+SolverUse use_of_unsymmetric_steps(const StepForecast& forecast);  // where a conductivity depends on temperature
+using UseOfSteps = SolverUse (*)(const StepForecast&);             // one of them
 
 // Short steps stabilised, longer ones implicit: the longest short step of those that cost least.
 struct StepMix {

@@ -176,8 +176,8 @@ TEST(TangentSteps, AreChosenWhereTheyCostLess) {
   EXPECT_THAT(solver(1e7), testing::HasSubstr("Newton's iteration"));
 }
 
-// LU takes many times as long as Cholesky, which does where only the specific heat depends on temperature.
-TEST(TangentSteps, AreChosenForLongerWhereOthersNeedAnUnsymmetricMatrix) {
+// The matrix is symmetric where only the specific heat depends on temperature, and else one near it is factorised.
+TEST(TangentSteps, AreLeftForImplicitOnesWhereJointsAreStiffWhateverDependsOnTemperature) {
   auto right = test::bar<3>(0.1, 10, 5, 0.1);
   right.low[0] = 0.1;
   const auto mesh = test::slab_mesh<3>({test::bar<3>(0.1, 10, 5, 0.1), right});
@@ -192,7 +192,7 @@ TEST(TangentSteps, AreChosenForLongerWhereOthersNeedAnUnsymmetricMatrix) {
   };
   EXPECT_THAT(solver({"c of a formula", 2.0, test::curve("400 + T")}), testing::HasSubstr("Newton's iteration"));
   EXPECT_THAT(solver({"both of formulas", test::curve("1 + 0.01*T"), test::curve("400 + T")}),
-              testing::Not(testing::HasSubstr("Newton's iteration")));
+              testing::HasSubstr("Newton's iteration"));
 }
 
 // The magnitudes of J, whatever the temperatures are.

@@ -42,6 +42,34 @@ TEST(VaryingProperties, ASteadyBarFollowsKirchhoffsTransformToRounding) {
   for (const Point<3>& q : flux) EXPECT_LT((q - Point<3>(phi(900) - phi(300), 0, 0)).norm(), 1e-7);
 }
 
+// The same with joints so stiff that they hardly count, and a conductivity that bends within an element.
+TEST(VaryingProperties, AConductivityThatFallsAHundredfoldWithinAKelvinIsSolvedForAcrossStiffJoints) {
+  std::vector<test::Slab<3>> bars;
+  for (int i = 0; i < 4; ++i) {
+    bars.push_back(test::bar<3>(0.25, 5, 2, 0.1));
+    bars.back().low[0] = 0.25 * i;
+  }
+  const auto mesh = test::slab_mesh<3>(bars);
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint.law = StiffnessFactor{1e6};
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "hot"));
+  options.boundaries.push_back(test::hold(BodyId{3}, 1, 300, "cold"));
+  Material rock = test::rock();
+  const Curve falling = Curve::from_table(LinearTable({330, 331}, {5, 0.05}));
+  rock.conductivity = falling;
+  const HeatModel model = make_heat_model(mesh, Table<MaterialId, Material>({rock}), test::matching_contacts(mesh), options);
+  for (const LinearSolver solver : {LinearSolver::cholesky, LinearSolver::multigrid}) {
+    const HeatState steady = find_steady_state(model, solver).state;
+    const double hot = falling.integral(400), cold = falling.integral(300);
+    for (const NodeId node : mesh.nodes.ids()) {
+      const double exact = hot + mesh.nodes[node].x() * (cold - hot);
+      EXPECT_NEAR(falling.integral(steady.temperature[node.value()]), exact, 1e-4 * (hot - cold));
+    }
+    EXPECT_LT(steady.steps, 40);
+    EXPECT_LT(steady.ledger.relative_residual(), 1e-10);
+  }
+}
+
 HeatModel warming_bar() {
   const auto mesh = test::slab_mesh<2>({test::bar<2>(0.05, 12, 4, 0.05)});
   HeatOptions options = test::options_for(mesh, 300);
