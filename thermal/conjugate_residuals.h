@@ -48,13 +48,13 @@ Eigen::VectorXd conjugate_residuals(const Multiply& multiply, const Divide& divi
     if (!std::isfinite(left)) return z;
     const bool at_its_end = left > little_gain * before && left <= rounding * all;
     if (missed * left <= accuracy * all || at_its_end) return x + z;
-    directions.push_back(p / length);
-    images.push_back(image / length);
+    directions.emplace_back(p / length);
+    images.emplace_back(image / length);
     before = left;
   }
   throw RunError(
       fmt::format("The linear equations of a conductivity that depends on temperature were not solved to {:g} in {} "
-                  "iterations: it changes too much across joints. Take heat.integrator: stabilised_explicit",
+                  "iterations: it changes too much across joints. Run it in time by heat.integrator: stabilised_explicit",
                   accuracy, most_iterations));
 }
 

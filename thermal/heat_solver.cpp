@@ -26,12 +26,12 @@ constexpr double three_digits = 1e-3;
 // "Which steps and which solver").
 constexpr double stiffness_of_single_precision = 1e5;
 
-}  // namespace
-
 std::optional<KirchhoffMatrix> kirchhoff_of(const HeatModel& model) {
   if (is_symmetric(model)) return std::nullopt;
   return std::make_optional<KirchhoffMatrix>(model);
 }
+
+}  // namespace
 
 HeatSolver::HeatSolver(const HeatModel& model, const FreeNodes& free, LinearSolver asked, const CostOfRun& run)
     : free_(free), kirchhoff_(kirchhoff_of(model)), symmetric_(kirchhoff_ ? kirchhoff_->near() : model.conductance) {
@@ -80,13 +80,13 @@ void HeatSolver::make_ready(const Linearised& at, Purpose wanted) {
   if (free_.size() == 0 || is_ready_for(wanted)) return;
   ++factorisations_;
   ready_for_ = {};  // of what is not sound
+  Purpose symmetric = wanted;
   if (kirchhoff_) {
     kirchhoff_->set(at.conductivity);
-    conductance_ = factor_ ? free_.lower_block(symmetric_) : SparseMatrix();
+    if (factor_) conductance_ = free_.lower_block(symmetric_);
     per_variable_ = free_.gather(kirchhoff_->per_variable());
+    symmetric.diagonal = wanted.diagonal.cwiseProduct(per_variable_);
   }
-  Purpose symmetric = wanted;
-  if (kirchhoff_) symmetric.diagonal = wanted.diagonal.cwiseProduct(per_variable_);
   if (multigrid_) {
     multigrid_->prepare(symmetric.diagonal, symmetric.scale);
   } else {
@@ -163,8 +163,9 @@ Eigen::MatrixXd HeatSolver::checked(Eigen::MatrixXd solution) const {
 }
 
 std::string HeatSolver::name() const {
-  if (multigrid_) return "conjugate gradients with algebraic multigrid (hypre BoomerAMG)";
-  return "supernodal Cholesky in the order of CHOLMOD";
+  const std::string symmetric = multigrid_ ? "conjugate gradients with algebraic multigrid (hypre BoomerAMG)"
+                                           : "supernodal Cholesky in the order of CHOLMOD";
+  return kirchhoff_ ? "conjugate residuals by " + symmetric : symmetric;
 }
 
 }  // namespace scree::thermal
