@@ -29,7 +29,7 @@ class HeatSolver {
   // Prepares for C + scale J [J/K]; scale in seconds. Throws RunError if it cannot be done.
   void prepare(const Linearised& at, double scale);
 
-  // For J alone [W/K].
+  // For J alone [W/K]. Where it is not symmetric the matrix near it stays that of before while little changes.
   void prepare_steady(const Linearised& at);
 
   // Each column of `rhs` [J] to its solution [K]. Needs prepare().
@@ -64,6 +64,7 @@ class HeatSolver {
   void choose(LinearSolver asked, const CostOfRun& run);
   void take_multigrid();
   [[nodiscard]] bool is_ready_for(const Purpose& purpose) const;
+  [[nodiscard]] bool is_still_near(const Linearised& at, const Purpose& purpose) const;
   void make_ready(const Linearised& at, Purpose wanted);
   void factorise(const Purpose& purpose);
   [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const;
@@ -80,6 +81,7 @@ class HeatSolver {
   std::unique_ptr<DirectFactor> factor_;      // this
   std::unique_ptr<Multigrid> multigrid_;      // or that
   Purpose ready_for_;
+  Purpose near_for_;  // what the matrix near an unsymmetric one was made for
   bool rough_will_do_ = false;  // whether single precision is enough for estimates
   ChosenSolver chosen_;
   std::int64_t factorisations_ = 0;

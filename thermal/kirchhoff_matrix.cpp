@@ -36,7 +36,8 @@ KirchhoffMatrix::KirchhoffMatrix(const HeatModel& model)
 }
 
 void KirchhoffMatrix::set(const Eigen::VectorXd& conductivity) {
-  conduction_.conductivity = conductivity;
+  conduct_by(conductivity);
+  conductivity_of_near_ = conductivity;
   const VaryingProperties& properties = *model_.varying;
   const std::vector<double> means = mean_conductivities(properties, unit_diagonal_, conductivity);
   Eigen::VectorXd roots = Eigen::VectorXd::Zero(conductivity.size());  // of kappa

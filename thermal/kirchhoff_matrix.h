@@ -22,6 +22,11 @@ class KirchhoffMatrix {
 
   // Takes conductivities, one of each node [W/m/K].
   void set(const Eigen::VectorXd& conductivity);
+  // Takes them for M alone: S and D stay.
+  void conduct_by(const Eigen::VectorXd& conductivity) { conduction_.conductivity = conductivity; }
+
+  // Those that S was made of.
+  [[nodiscard]] const Eigen::VectorXd& conductivity_of_near() const { return conductivity_of_near_; }
 
   // S without its diagonal of C and loss, at s = 1 [W/K]; its pattern stays. Of K + U, whatever D is, before set().
   [[nodiscard]] const SparseMatrix& near() const { return near_; }
@@ -38,6 +43,7 @@ class KirchhoffMatrix {
   Eigen::VectorXd unit_diagonal_;  // of U: 0 at nodes without [m]
   SparseMatrix near_;
   Eigen::VectorXd per_variable_;
+  Eigen::VectorXd conductivity_of_near_;
   Linearised conduction_;  // alone: nothing is lost to surroundings
 };
 

@@ -49,7 +49,7 @@ class SteadySolver {
       if (state.steps == most_iterations) refuse(state.temperature, heating);
       solver_.prepare_steady(balance_.linearised(state.temperature, drive_));
       const double before = heating.lpNorm<1>();
-      moved = take(free_.scatter(solver_.solve(heating)), state.temperature, heating);
+      moved = take(free_.scatter(change_for(heating)), state.temperature, heating);
       gained = heating.lpNorm<1>() / before;
       ++state.steps;
     }
@@ -81,6 +81,12 @@ class SteadySolver {
     const double applied = drive_.load.cwiseMax(0.0).sum();
     const double hot = std::pow(std::pow(largest_given, 4) + applied / radiating, 0.25);
     return held(model_, Eigen::VectorXd::Constant(model_.initial.size(), hot), drive_);
+  }
+
+  // What is not linear is corrected again.
+  [[nodiscard]] Eigen::VectorXd change_for(const Eigen::VectorXd& heating) const {
+    const bool corrected = solver_.iterates() && !has_constant_properties(model_);
+    return corrected ? solver_.estimate(heating) : solver_.solve(heating);
   }
 
   // The whole of the change, or as much as brings the balance nearer; says how far that is [K].
