@@ -81,7 +81,7 @@ class HeatSolver {
   std::unique_ptr<DirectFactor> factor_;      // this
   std::unique_ptr<Multigrid> multigrid_;      // or that
   Purpose ready_for_;
-  Purpose near_for_;  // what the matrix near an unsymmetric one was made for
+  Purpose near_for_;            // what the matrix near an unsymmetric one was made for
   bool rough_will_do_ = false;  // whether single precision is enough for estimates
   ChosenSolver chosen_;
   std::int64_t factorisations_ = 0;
