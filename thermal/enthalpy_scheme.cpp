@@ -7,6 +7,7 @@
 
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
+#include "thermal/little_change.h"
 #include "thermal/sdirk2.h"
 #include "thermal/time_scheme.h"
 
@@ -94,11 +95,9 @@ class EnthalpyScheme : public TimeScheme {
   // of a multigrid no more than one.
   [[nodiscard]] bool serves(const Linearised& now) const {
     if (solver_.iterates() || origin_.scale != scale_) return false;
-    const auto near = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-      return ((a - b).array().abs() <= served_change * b.array()).all();
-    };
-    return near(now.capacity + scale_ * now.loss, linear_.capacity + scale_ * linear_.loss) &&
-           near(now.conductivity, linear_.conductivity);
+    const Eigen::VectorXd diagonal = now.capacity + scale_ * now.loss;
+    return little_changed(diagonal, linear_.capacity + scale_ * linear_.loss, served_change) &&
+           little_changed(now.conductivity, linear_.conductivity, served_change);
   }
 
   // From the stage's temperatures as a first guess to its solution; false if there is none to be had. `base` is B [J].

@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "thermal/conjugate_residuals.h"
+#include "thermal/little_change.h"
 
 namespace scree::thermal {
 
@@ -72,17 +73,15 @@ void HeatSolver::prepare(const Linearised& at, double scale) {
 
 void HeatSolver::prepare_steady(const Linearised& at) {
   Purpose wanted{free_.gather(at.loss), 1};
-  if (!is_still_near(at, wanted)) return make_ready(at, std::move(wanted));
-  kirchhoff_->conduct_by(at.conductivity);
-  ready_for_ = std::move(wanted);
-}
-
-bool HeatSolver::is_still_near(const Linearised& at, const Purpose& purpose) const {
-  if (!kirchhoff_ || near_for_.scale != purpose.scale) return false;
-  const auto near = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return ((a - b).array().abs() <= served_change * b.array()).all();
-  };
-  return near(at.conductivity, kirchhoff_->conductivity_of_near()) && near(purpose.diagonal, near_for_.diagonal);
+  const bool still_near = near_for_ && little_changed(at.conductivity, near_for_->conductivity, served_change) &&
+                          little_changed(at.loss, near_for_->loss, served_change);
+  if (still_near) {
+    kirchhoff_->conduct_by(at.conductivity);
+    ready_for_ = std::move(wanted);
+    return;
+  }
+  make_ready(at, std::move(wanted));
+  if (kirchhoff_) near_for_ = at;
 }
 
 bool HeatSolver::is_ready_for(const Purpose& purpose) const {
@@ -94,13 +93,13 @@ void HeatSolver::make_ready(const Linearised& at, Purpose wanted) {
   if (free_.size() == 0 || is_ready_for(wanted)) return;
   ++factorisations_;
   ready_for_ = {};  // of what is not sound
+  near_for_.reset();
   Purpose symmetric = wanted;
   if (kirchhoff_) {
     kirchhoff_->set(at.conductivity);
     if (factor_) conductance_ = free_.lower_block(symmetric_);
     per_variable_ = free_.gather(kirchhoff_->per_variable());
     symmetric.diagonal = wanted.diagonal.cwiseProduct(per_variable_);
-    near_for_ = wanted;
   }
   if (multigrid_) {
     multigrid_->prepare(symmetric.diagonal, symmetric.scale);

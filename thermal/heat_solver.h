@@ -64,7 +64,6 @@ class HeatSolver {
   void choose(LinearSolver asked, const CostOfRun& run);
   void take_multigrid();
   [[nodiscard]] bool is_ready_for(const Purpose& purpose) const;
-  [[nodiscard]] bool is_still_near(const Linearised& at, const Purpose& purpose) const;
   void make_ready(const Linearised& at, Purpose wanted);
   void factorise(const Purpose& purpose);
   [[nodiscard]] Eigen::MatrixXd solve_to(const Eigen::MatrixXd& rhs, const Accuracy& accuracy) const;
@@ -81,8 +80,8 @@ class HeatSolver {
   std::unique_ptr<DirectFactor> factor_;      // this
   std::unique_ptr<Multigrid> multigrid_;      // or that
   Purpose ready_for_;
-  Purpose near_for_;            // what the matrix near an unsymmetric one was made for
-  bool rough_will_do_ = false;  // whether single precision is enough for estimates
+  std::optional<Linearised> near_for_;  // the steady state that the matrix near an unsymmetric one was made for
+  bool rough_will_do_ = false;          // whether single precision is enough for estimates
   ChosenSolver chosen_;
   std::int64_t factorisations_ = 0;
 };

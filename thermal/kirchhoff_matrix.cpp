@@ -1,6 +1,5 @@
 #include "thermal/kirchhoff_matrix.h"
 
-#include <cmath>
 #include <vector>
 
 namespace scree::thermal {
@@ -37,18 +36,16 @@ KirchhoffMatrix::KirchhoffMatrix(const HeatModel& model)
 
 void KirchhoffMatrix::set(const Eigen::VectorXd& conductivity) {
   conduct_by(conductivity);
-  conductivity_of_near_ = conductivity;
   const VaryingProperties& properties = *model_.varying;
   const std::vector<double> means = mean_conductivities(properties, unit_diagonal_, conductivity);
-  Eigen::VectorXd roots = Eigen::VectorXd::Zero(conductivity.size());  // of kappa
+  Eigen::VectorXd kappa = Eigen::VectorXd::Zero(conductivity.size());
   per_variable_ = Eigen::VectorXd::Ones(conductivity.size());
   for (const NodeId node : properties.material.ids()) {
     if (unit_diagonal_[node.value()] == 0) continue;
-    const double mean = means[static_cast<std::size_t>(properties.material[node])];
-    roots[node.value()] = std::sqrt(mean);
-    per_variable_[node.value()] = mean / conductivity[node.value()];
+    kappa[node.value()] = means[static_cast<std::size_t>(properties.material[node])];
+    per_variable_[node.value()] = kappa[node.value()] / conductivity[node.value()];
   }
-  near_ = model_.conductance + SparseMatrix(roots.asDiagonal() * properties.unit_conductance * roots.asDiagonal());
+  near_ = model_.conductance + SparseMatrix(properties.unit_conductance * kappa.asDiagonal());
 }
 
 }  // namespace scree::thermal

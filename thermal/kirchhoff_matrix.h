@@ -3,17 +3,18 @@
 // D = k/kappa, kappa [W/m/K] the mean k of a material, and D = 1 at nodes without U,
 //   M D^-1 = (C + s diag(loss)) D^-1 + s (U diag(kappa) + K D^-1).
 // What is left is K D^-1: joints between nodes of unlike D. So
-//   S = (C + s diag(loss)) D^-1 + s (kappa^1/2 U kappa^1/2 + K)
-// is factorised in its place, symmetric and positive definite, and an iteration takes away the rest (conjugate_residuals.h).
-// However stiff a joint is, S loses as little heat there as M does, so S^-1 M stays of the size of D. D^-1/2 K D^-1/2 would not
-// do: across a joint of beta 1000 between two materials whose D differ it took more than sixty iterations.
+//   S = (C + s diag(loss)) D^-1 + s (U diag(kappa) + K)
+// (U couples nodes of one material) is factorised in its place, symmetric and positive definite, and an iteration takes away
+// the rest (conjugate_residuals.h). However stiff a joint is, S loses as little heat there as M does, so S^-1 M stays of the
+// size of D. D^-1/2 K D^-1/2 would not do: across a joint of beta 1000 between two materials whose D differ it took more than
+// sixty iterations.
 #pragma once
 
 #include "thermal/heat_balance.h"
 
 namespace scree::thermal {
 
-// Whether K + U diag(k) is: no conductivity depends on temperature.
+// Whether J is symmetric: no conductivity depends on temperature, and there is no U.
 bool is_symmetric(const HeatModel& model);
 
 class KirchhoffMatrix {
@@ -24,9 +25,6 @@ class KirchhoffMatrix {
   void set(const Eigen::VectorXd& conductivity);
   // Takes them for M alone: S and D stay.
   void conduct_by(const Eigen::VectorXd& conductivity) { conduction_.conductivity = conductivity; }
-
-  // Those that S was made of.
-  [[nodiscard]] const Eigen::VectorXd& conductivity_of_near() const { return conductivity_of_near_; }
 
   // S without its diagonal of C and loss, at s = 1 [W/K]; its pattern stays. Of K + U, whatever D is, before set().
   [[nodiscard]] const SparseMatrix& near() const { return near_; }
@@ -43,7 +41,6 @@ class KirchhoffMatrix {
   Eigen::VectorXd unit_diagonal_;  // of U: 0 at nodes without [m]
   SparseMatrix near_;
   Eigen::VectorXd per_variable_;
-  Eigen::VectorXd conductivity_of_near_;
   Linearised conduction_;  // alone: nothing is lost to surroundings
 };
 

@@ -4,6 +4,7 @@
 
 #include "thermal/fourth_order.h"
 #include "thermal/heat_run.h"
+#include "thermal/kirchhoff_matrix.h"
 #include "thermal/time_scheme.h"
 
 namespace scree::thermal {
@@ -35,7 +36,7 @@ std::vector<NodeId> ledger_nodes(const HeatModel& model) {
     nodes.insert(nodes.end(), shares.givers().begin(), shares.givers().end());
   }
   add_joined(model.conductance);
-  if (model.varying && model.varying->unit_conductance.nonZeros() > 0) add_joined(model.varying->unit_conductance);
+  if (!is_symmetric(model)) add_joined(model.varying->unit_conductance);
   for (const Exchange& exchange : model.exchanges)
     nodes.insert(nodes.end(), exchange.on.nodes.begin(), exchange.on.nodes.end());
   std::sort(nodes.begin(), nodes.end());

@@ -6,6 +6,7 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include "thermal/exchange.h"
+#include "thermal/kirchhoff_matrix.h"
 
 namespace scree::thermal {
 
@@ -40,9 +41,7 @@ struct LumpingEstimate::Flows {
 LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   conductance_ = free_.block(model.conductance);
-  if (model.varying && model.varying->unit_conductance.nonZeros() > 0) {
-    unit_conductance_ = free_.block(model.varying->unit_conductance);
-  }
+  if (!is_symmetric(model)) unit_conductance_ = free_.block(model.varying->unit_conductance);
 }
 
 LumpingError LumpingEstimate::start() const {

@@ -94,15 +94,28 @@ TEST(KirchhoffMatrix, ConductsAsTheBalanceDoes) {
   EXPECT_LT((matrix.conducted(x) - exact).norm(), 1e-12 * exact.norm());
 }
 
+// A right side of a row of cubes, and what it is solved to.
+struct Row {
+  explicit Row(double stiffness_factor) : model(row_of_cubes(stiffness_factor)) {}
+
+  // By the dense matrix of the free nodes; capacities count unless the state is steady.
+  [[nodiscard]] Eigen::VectorXd solution(const Linearised& state, double scale, bool steady) const {
+    Eigen::MatrixXd all = scale * conduction(model, state);
+    all.diagonal() += scale * state.loss;
+    if (!steady) all.diagonal() += state.capacity;
+    const Eigen::MatrixXd columns = free.gather(all).transpose();
+    return Eigen::MatrixXd(free.gather(columns).transpose()).fullPivLu().solve(rhs);
+  }
+
+  HeatModel model;
+  FreeNodes free{model};
+  Linearised at = state_of(model);
+  Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(free.size(), -1, 2);
+};
+
 class UnsymmetricSolves : public testing::TestWithParam<LinearSolver> {
  protected:
-  // The dense matrix of the free nodes; capacities count unless the state is steady.
-  static Eigen::MatrixXd dense(const HeatModel& model, const FreeNodes& free, const Linearised& at, double scale, bool steady) {
-    Eigen::MatrixXd all = scale * conduction(model, at);
-    all.diagonal() += scale * at.loss;
-    if (!steady) all.diagonal() += at.capacity;
-    return free.gather(Eigen::MatrixXd(free.gather(all).transpose())).transpose();
-  }
+  static HeatSolver solver_of(const Row& row) { return {row.model, row.free, GetParam(), SolverUse{}}; }
   static double off(const Eigen::VectorXd& solution, const Eigen::VectorXd& exact) {
     return (solution - exact).norm() / exact.norm();
   }
@@ -110,52 +123,41 @@ class UnsymmetricSolves : public testing::TestWithParam<LinearSolver> {
 
 TEST_P(UnsymmetricSolves, AreThoseOfDenseLu) {
   for (const double beta : {0.1, 10.0, 1e3, 1e6}) {
-    const HeatModel model = row_of_cubes(beta);
-    const FreeNodes free(model);
-    const Linearised at = state_of(model);
-    const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(free.size(), -1, 2);
-    HeatSolver solver(model, free, GetParam(), SolverUse{});
+    const Row row(beta);
+    HeatSolver solver = solver_of(row);
     for (const double scale : {1.0, 1e3, 1e6}) {
-      const Eigen::VectorXd exact = dense(model, free, at, scale, false).fullPivLu().solve(rhs);
-      solver.prepare(at, scale);
-      EXPECT_LT(off(solver.solve(rhs), exact), 1e-8) << beta << " " << scale;
-      EXPECT_LT(off(solver.estimate(rhs), exact), 5e-4) << beta << " " << scale;
-      EXPECT_LT(off(solver.correction(rhs), exact), 5e-3) << beta << " " << scale;
+      const Eigen::VectorXd exact = row.solution(row.at, scale, false);
+      solver.prepare(row.at, scale);
+      EXPECT_LT(off(solver.solve(row.rhs), exact), 1e-8) << beta << " " << scale;
+      EXPECT_LT(off(solver.estimate(row.rhs), exact), 5e-4) << beta << " " << scale;
+      EXPECT_LT(off(solver.correction(row.rhs), exact), 5e-3) << beta << " " << scale;
     }
-    solver.prepare_steady(at);
-    const Eigen::VectorXd exact = dense(model, free, at, 1, true).fullPivLu().solve(rhs);
-    EXPECT_LT(off(solver.solve(rhs), exact), 1e-7) << beta;
+    solver.prepare_steady(row.at);
+    EXPECT_LT(off(solver.solve(row.rhs), row.solution(row.at, 1, true)), 1e-7) << beta;
   }
 }
 
 TEST_P(UnsymmetricSolves, OfSteadyStatesAreExactWithAMatrixNearThatIsKeptWhileLittleChanges) {
-  const HeatModel model = row_of_cubes(1e3);
-  const FreeNodes free(model);
-  const Linearised first = state_of(model);
-  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(free.size(), -1, 2);
-  HeatSolver solver(model, free, GetParam(), SolverUse{});
+  const Row row(1e3);
+  HeatSolver solver = solver_of(row);
   const std::vector<std::pair<double, std::int64_t>> changes{{0, 1}, {0.09, 1}, {0.12, 2}, {0.15, 2}};
   for (const auto& [change, matrices] : changes) {
-    Linearised at = first;
+    Linearised at = row.at;
     for (Eigen::Index i = 0; i < at.conductivity.size(); i += 2) at.conductivity[i] *= 1 + change;
     solver.prepare_steady(at);
     EXPECT_EQ(solver.factorisations(), matrices) << change;
-    const Eigen::VectorXd exact = dense(model, free, at, 1, true).fullPivLu().solve(rhs);
-    EXPECT_LT(off(solver.solve(rhs), exact), 1e-7) << change;
+    EXPECT_LT(off(solver.solve(row.rhs), row.solution(at, 1, true)), 1e-7) << change;
   }
 }
 
 TEST_P(UnsymmetricSolves, GiveTheSameBitsOnHoweverManyThreads) {
-  const HeatModel model = row_of_cubes(1e3);
-  const FreeNodes free(model);
-  const Linearised at = state_of(model);
-  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(free.size(), -1, 2);
+  const Row row(1e3);
   const auto solution = [&](int threads) {
     const int before = threads_in_use();
     use_threads(threads);
-    HeatSolver solver(model, free, GetParam(), SolverUse{});
-    solver.prepare(at, 100);
-    const Eigen::VectorXd result = solver.solve(rhs);
+    HeatSolver solver = solver_of(row);
+    solver.prepare(row.at, 100);
+    const Eigen::VectorXd result = solver.solve(row.rhs);
     use_threads(before);
     return result;
   };
