@@ -32,7 +32,9 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
-    const Eigen::VectorXd* tangent = stage.tangent ? &before : nullptr;
+    std::optional<TangentPoint> at;
+    if (stage.tangent) at.emplace(TangentPoint{before, drives_.at(*stage.tangent)});
+    const TangentPoint* tangent = at ? &*at : nullptr;
     held -= duration * balance_.heating_at(model_.fixed_nodes, stage.temperature, drive, tangent);
     if (shares_) held -= duration * shares_->shares(balance_, stage.temperature, drive);
     for (std::size_t l = 0; l < model_.loads.size(); ++l) ledger.by_applied[l] += duration * drive.by_load[l];

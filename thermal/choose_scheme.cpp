@@ -72,8 +72,8 @@ ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const 
 }
 
 ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
-  const bool possible = asked == Integrator::automatic || asked == Integrator::stabilised_explicit;
-  if (!possible || !can_be_stabilised(model)) {
+  const bool stabilised = asked == Integrator::automatic || asked == Integrator::stabilised_explicit;
+  if (!stabilised || varies_in_time(model) || !has_constant_properties(model)) {
     throw InputError(problem("heat.space_order", "4",
                              "must be done in stabilised explicit steps, which do no radiation, nor coefficients or conditions "
                              "that change in time",
@@ -83,9 +83,6 @@ ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
 }
 
 ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
-  if (!can_be_stabilised(model)) {
-    return implicit(model, options, "conditions change in time, which stabilised explicit steps do not do");
-  }
   StableSteps stable(model);
   const RunCosts costs(model, options, stable.at_start().step);
   if (!implicit_may_pay(model, options.solver, costs)) {

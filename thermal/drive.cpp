@@ -43,10 +43,6 @@ class Evaluator {
   double time_;
 };
 
-bool varies(const Exchange& exchange) {
-  return exchange.coefficient.varies_in_time() || exchange.surroundings.varies_in_time();
-}
-
 ExchangeRates rates(const Exchange& exchange, const Evaluator& evaluate) {
   const std::size_t count = exchange.on.nodes.size();
   ExchangeRates result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
@@ -64,11 +60,23 @@ ExchangeRates rates(const Exchange& exchange, const Evaluator& evaluate) {
 
 }  // namespace
 
+bool varies_in_time(const Hold& hold) {
+  return hold.temperature.varies_in_time();
+}
+
+bool varies_in_time(const Load& load) {
+  return load.density.varies_in_time();
+}
+
+bool varies_in_time(const Exchange& exchange) {
+  return exchange.coefficient.varies_in_time() || exchange.surroundings.varies_in_time();
+}
+
 bool varies_in_time(const HeatModel& model) {
-  return std::any_of(model.holds.begin(), model.holds.end(),
-                     [](const Hold& hold) { return hold.temperature.varies_in_time(); }) ||
-         std::any_of(model.loads.begin(), model.loads.end(), [](const Load& load) { return load.density.varies_in_time(); }) ||
-         std::any_of(model.exchanges.begin(), model.exchanges.end(), varies);
+  const auto any = [](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [](const auto& one) { return varies_in_time(one); });
+  };
+  return any(model.holds) || any(model.loads) || any(model.exchanges);
 }
 
 Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(model)) {
@@ -85,13 +93,13 @@ void Drives::evaluate(Part part, Drive& drive) const {
   const Evaluator value(drive.time);
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
     const Hold& hold = model_.holds[model_.fixed_hold[i]];
-    if (hold.temperature.varies_in_time() != varying) continue;
+    if (varies_in_time(hold) != varying) continue;
     drive.fixed[static_cast<Eigen::Index>(i)] =
         value(hold.temperature, model_.places.col(model_.fixed_nodes[i].value()), hold.name, kelvin);
   }
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
-    if (load.density.varies_in_time() != varying) continue;
+    if (varies_in_time(load) != varying) continue;
     for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
       const Eigen::Vector3d place = load.on.places.col(static_cast<Eigen::Index>(i));
       const double heat = load.on.shares[i] * value(load.density, place, load.name, any_value);
@@ -102,7 +110,7 @@ void Drives::evaluate(Part part, Drive& drive) const {
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
-    if (varies(exchange) == varying) drive.exchanges[e] = rates(exchange, value);
+    if (varies_in_time(exchange) == varying) drive.exchanges[e] = rates(exchange, value);
   }
 }
 

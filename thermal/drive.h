@@ -22,7 +22,10 @@ struct Drive {
   std::vector<ExchangeRates> exchanges;  // in the model's order
 };
 
-// Whether a condition or a load changes in time.
+// Whether a condition or a load changes in time; any of a model's.
+bool varies_in_time(const Hold& hold);
+bool varies_in_time(const Load& load);
+bool varies_in_time(const Exchange& exchange);
 bool varies_in_time(const HeatModel& model);
 
 class Drives {

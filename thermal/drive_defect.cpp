@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "thermal/exchange.h"
-#include "thermal/sdirk2.h"
 
 namespace scree::thermal {
 
@@ -14,20 +13,21 @@ constexpr int looks = 16;
 
 class Defect {
  public:
-  Defect(double begin, double length) : begin_(begin), length_(length) {}
+  Defect(const std::vector<Look>& quadrature, double begin, double length)
+      : quadrature_(quadrature), begin_(begin), length_(length) {}
 
   // Of f(t): the quadrature's less the integral.
   template <class Value>
   double operator()(const Value& f) const {
-    using namespace sdirk2;
     double integral = 0;
     for (int i = 0; i < looks; ++i) integral += f(begin_ + (i + 0.5) / looks * length_) / looks;
-    const double parabola =
-        (1 - parabola1 - parabola2) * f(begin_) + parabola1 * f(begin_ + gamma * length_) + parabola2 * f(begin_ + length_);
+    double parabola = 0;
+    for (const Look& look : quadrature_) parabola += look.weight * f(begin_ + look.part * length_);
     return length_ * (parabola - integral);
   }
 
  private:
+  const std::vector<Look>& quadrature_;
   double begin_;
   double length_;
 };
@@ -42,7 +42,7 @@ Eigen::VectorXd at_nodes(const NodeShares& on, bool varies_in_place, const Value
 }
 
 void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
-  if (!load.density.varies_in_time()) return;
+  if (!varies_in_time(load)) return;
   const Eigen::VectorXd missed = at_nodes(load.on, load.density.varies_in_place(), [&](const Eigen::Vector3d& place) {
     return defect([&](double time) { return load.density(place, time); });
   });
@@ -54,9 +54,9 @@ void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
 // Exchanged heat is the coefficient times the difference of a power of both temperatures, so that what is missed is made of
 // two defects: that of what comes in, and that of the coefficient.
 void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& temperature, Eigen::VectorXd& heat) {
+  if (!varies_in_time(exchange)) return;
   const Function& coefficient = exchange.coefficient;
   const Function& surroundings = exchange.surroundings;
-  if (!coefficient.varies_in_time() && !surroundings.varies_in_time()) return;
   const bool varies_in_place = coefficient.varies_in_place() || surroundings.varies_in_place();
   const auto potential = [&](double t) {
     return exchange.law == Exchange::Law::convection ? t : stefan_boltzmann * t * t * t * std::abs(t);
@@ -76,9 +76,9 @@ void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::VectorXd drive_defect(const HeatModel& model, double begin, double length, const Eigen::VectorXd& temperature,
-                             const Eigen::VectorXd& capacity) {
-  const Defect defect(begin, length);
+Eigen::VectorXd drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
+                             const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity) {
+  const Defect defect(quadrature, begin, length);
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
   for (const Load& load : model.loads) add(load, defect, heat);
   for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, heat);

@@ -77,6 +77,7 @@ class EnthalpyScheme : public TimeScheme {
     linearise({1, origin.time, origin.temperature}, balance_.linearised(origin.temperature, drives_.at(origin.time)));
   }
 
+  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return sdirk2::drive_quadrature(); }
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
   [[nodiscard]] ChosenSolver solver() const override { return solver_.chosen(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }

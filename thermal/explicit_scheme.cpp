@@ -46,6 +46,7 @@ class ExplicitScheme : public TimeScheme {
   // Steps are bounded by stability and given by the user, not chosen from an error.
   double first_step(const Instant&, double) override { return std::numeric_limits<double>::infinity(); }
 
+  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return {{0, 0.5}, {1, 0.5}}; }
   [[nodiscard]] double safety() const override { return 1; }
   [[nodiscard]] double cost_exponent() const override { return 1; }
   [[nodiscard]] std::string name() const override { return "explicit Euler, eq. (8), fixed steps"; }

@@ -55,12 +55,13 @@ Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, c
   return at_rows(properties, list, [&](const Curve& curve, Eigen::Index row) { return f(curve, temperature[row]); });
 }
 
-// Into the exchange's node `i`, which is node `row`; along the tangent at other temperatures, if there are any [W].
-double exchanged_at(Exchange::Law law, const ExchangeRates& rates, Eigen::Index i, int row, const Eigen::VectorXd& temperature,
-                    const Eigen::VectorXd* tangent) {
-  if (tangent == nullptr) return exchanged_heat(law, rates, i, temperature[row]);
-  const double at = (*tangent)[row];
-  return exchanged_heat(law, rates, i, at) - exchange_slope(law, rates, i, at) * (temperature[row] - at);
+// Into node `row`, the i-th of exchange `e`; along a tangent, if there is one [W].
+double exchanged_at(Exchange::Law law, std::size_t e, Eigen::Index i, int row, const Eigen::VectorXd& temperature,
+                    const Drive& drive, const TangentPoint* tangent) {
+  if (tangent == nullptr) return exchanged_heat(law, drive.exchanges[e], i, temperature[row]);
+  const double at = tangent->temperature[row];
+  return exchanged_heat(law, drive.exchanges[e], i, at) -
+         exchange_slope(law, tangent->drive.exchanges[e], i, at) * (temperature[row] - at);
 }
 
 // Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration, which halves what is left
@@ -114,16 +115,16 @@ Eigen::VectorXd HeatBalance::driven(const Eigen::VectorXd& temperature, const Dr
 }
 
 Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
-                                        const Drive& drive, const Eigen::VectorXd* tangent) const {
+                                        const Drive& drive, const TangentPoint* tangent) const {
   Eigen::VectorXd heat(static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     heat[static_cast<Eigen::Index>(i)] = drive.load[nodes[i].value()] - flows_.leaving(nodes[i], temperature);
   }
   if (!unit_flows_.empty()) {
-    Eigen::VectorXd phi = conducted(tangent == nullptr ? temperature : *tangent);
+    Eigen::VectorXd phi = conducted(tangent == nullptr ? temperature : tangent->temperature);
     if (tangent != nullptr) {
-      const Eigen::VectorXd slope = at_nodes(*model_.varying, &VaryingProperties::conductivity, *tangent, value);
-      phi += slope.cwiseProduct(temperature - *tangent);
+      const Eigen::VectorXd slope = at_nodes(*model_.varying, &VaryingProperties::conductivity, tangent->temperature, value);
+      phi += slope.cwiseProduct(temperature - tangent->temperature);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) heat[static_cast<Eigen::Index>(i)] -= unit_flows_.leaving(nodes[i], phi);
   }
@@ -133,7 +134,7 @@ Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const 
     for (const NodeId node : exchange.on.nodes) {
       const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
       if (found != nodes.end() && *found == node) {
-        heat[found - nodes.begin()] += exchanged_at(exchange.law, drive.exchanges[e], row, node.value(), temperature, tangent);
+        heat[found - nodes.begin()] += exchanged_at(exchange.law, e, row, node.value(), temperature, drive, tangent);
       }
       ++row;
     }
@@ -202,12 +203,12 @@ Eigen::VectorXd HeatBalance::lost(const Eigen::VectorXd& change, const Linearise
 }
 
 HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive,
-                                              const Eigen::VectorXd* tangent) const {
+                                              const TangentPoint* tangent) const {
   const Exchange& with = model_.exchanges[exchange];
   Exchanged all;
   Eigen::Index row = 0;
   for (const NodeId node : with.on.nodes) {
-    const double heat = exchanged_at(with.law, drive.exchanges[exchange], row++, node.value(), temperature, tangent);
+    const double heat = exchanged_at(with.law, exchange, row++, node.value(), temperature, drive, tangent);
     all.heat += heat;
     all.size += std::abs(heat);
   }

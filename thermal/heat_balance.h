@@ -20,6 +20,12 @@ struct Linearised {
   Eigen::VectorXd conductivity;  // [W/m/K]; empty without U
 };
 
+// What a tangent is taken at.
+struct TangentPoint {
+  const Eigen::VectorXd& temperature;  // [K]
+  const Drive& drive;
+};
+
 // How much more heat each node loses to surroundings as it gets warmer [W/K].
 Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::VectorXd& temperature, const Drive& drive);
 
@@ -36,9 +42,9 @@ class HeatBalance {
   // What of F comes from outside, loads and exchanges.
   [[nodiscard]] Eigen::VectorXd driven(const Eigen::VectorXd& temperature, const Drive& drive) const;
 
-  // F of some nodes, in ascending order, one entry each; with `tangent`, along the tangent at its temperatures.
+  // F of some nodes, in ascending order, one entry each; with `tangent`, F of its temperatures and along the tangent there.
   [[nodiscard]] Eigen::VectorXd heating_at(const std::vector<NodeId>& nodes, const Eigen::VectorXd& temperature,
-                                           const Drive& drive, const Eigen::VectorXd* tangent = nullptr) const;
+                                           const Drive& drive, const TangentPoint* tangent = nullptr) const;
 
   // Heat that a change of temperature stores in each node [J].
   [[nodiscard]] Eigen::VectorXd stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
@@ -65,7 +71,7 @@ class HeatBalance {
     double size = 0;  // the same without signs [W]
   };
   [[nodiscard]] Exchanged exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive,
-                                    const Eigen::VectorXd* tangent = nullptr) const;
+                                    const TangentPoint* tangent = nullptr) const;
 
  private:
   const HeatModel& model_;

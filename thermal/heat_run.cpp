@@ -162,7 +162,8 @@ class HeatRun::Implementation {
   // What the scheme's own estimate of a step does not see of jumps within it [K]; nothing if there are none.
   [[nodiscard]] std::optional<Eigen::VectorXd> missed_in(const StepGrid& grid, const TimeBends& bends) const {
     if (!bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
-    return drive_defect(model_, grid.time(), grid.step(), state_.temperature, capacity_at(model_, state_.temperature));
+    return drive_defect(model_, scheme_.scheme->drive_quadrature(grid.step()), grid.time(), grid.step(), state_.temperature,
+                        capacity_at(model_, state_.temperature));
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.

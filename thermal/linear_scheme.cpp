@@ -81,6 +81,7 @@ class LinearScheme : public TimeScheme {
     return sdirk2::first_step(heating, capacity_, lost, allowed);
   }
 
+  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return sdirk2::drive_quadrature(); }
   [[nodiscard]] double safety() const override { return 1 / least_ratio; }
   [[nodiscard]] ChosenSolver solver() const override { return solver_.chosen(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }

@@ -26,6 +26,7 @@ class MixedScheme : public TimeScheme {
     return length <= longest_short_ ? length : long_->first_step(from, allowed);
   }
 
+  [[nodiscard]] std::vector<Look> drive_quadrature(double length) const override { return of(length).drive_quadrature(length); }
   [[nodiscard]] MatrixOrigin matrix_origin() const override { return long_->matrix_origin(); }
   void take_matrix(const MatrixOrigin& origin) override { long_->take_matrix(origin); }
   [[nodiscard]] double safety() const override { return std::max(short_->safety(), long_->safety()); }

@@ -20,8 +20,11 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Core>
+
+#include "thermal/drive_defect.h"
 
 namespace scree::thermal::sdirk2 {
 
@@ -40,6 +43,10 @@ inline const double delta2 = gamma - parabola2;
 // sum_i delta_i a_ij c_j with the stages' coefficients a.
 inline const double missing = third_order - (delta1 * gamma * gamma + delta2 * (2 * gamma - gamma * gamma));
 inline const double mu = missing / (gamma * (1 - gamma));
+
+inline std::vector<Look> drive_quadrature() {
+  return {{0, 1 - parabola1 - parabola2}, {gamma, parabola1}, {1, parabola2}};
+}
 
 inline constexpr double least_ratio = 0.73;  // of estimate to true error of a step
 

@@ -1,13 +1,13 @@
 // The scheme of rkl2.h, along the tangent at the start of each step: with C, J and F of the temperatures T0 there,
-//   C D' = F(T0) - J D,    H(T1) - H(T0) = C D(h),
+//   C D' = F(T0, t) - J D,    H(T1) - H(T0) = C D(h),
 // H the enthalpy. Where nothing depends on temperature that is the equation itself, and T1 = T0 + D(h). Where something does,
 // it leaves out what bends within a step, O(h^3) as the scheme's own error, and the operator whose largest eigenvalue sets the
 // number of stages is known beforehand and holds for the whole step. Heat that flows along the tangent is what the ledger
 // books, so it closes.
 //
 // Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J D) is half of F''(D, D),
-// so -h/3 C^-1 times that is added. Errors are of T1, C(T0)/C(T1) times what they are of D. The global error is carried by the
-// scheme itself as a second column of each product.
+// so -h/3 C^-1 times that is added. A coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1)
+// times what they are of D. The global error is carried by the scheme itself as a second column of each product.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@
 #include "engine/base/huge_pages.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
-#include "thermal/problems.h"
+#include "thermal/moving_drive.h"
 #include "thermal/rkl2.h"
 #include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"
@@ -31,8 +31,7 @@ namespace {
 
 using namespace rkl2;
 
-// Temperatures and error side by side: a product reads the matrix once for both.
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+using Columns = MovingDrive::Columns;
 
 // S at the nodes that the ledger reads, which are ascending.
 class WatchedMean {
@@ -69,10 +68,11 @@ class StabilisedScheme : public TimeScheme {
       : model_(model),
         drives_(model),
         balance_(model, Sums::plain),
+        moving_(model),
         stable_(stable.at_start().step),
         sharing_(model.shared_capacity ? &*model.shared_capacity : nullptr, Sums::plain),
         watched_(ledger_nodes(model)) {
-    linearise(model.initial);
+    linearise({0, model.initial, {}});
     if (!has_constant_properties(model)) changing_ = std::move(stable);
     resize({&start_, &newer_, &older_});
     if (!sharing_.empty()) resize({&rates_, &beside_});
@@ -80,25 +80,28 @@ class StabilisedScheme : public TimeScheme {
   }
 
   Step step(const Instant& from, double length) override {
-    if (changing_) follow(from.temperature);
+    if (changing_) follow(from);
     const int stages = stages_for(length, stable_);
     start(from, length);
+    if (!moving_.empty()) moving_.fit(balance_, drives_, from.time, length, from.temperature, inverse_);
     for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
       older_.middleRows(row, rows).setZero();
       newer_.middleRows(row, rows) = first_coefficient(stages) * start_.middleRows(row, rows);
     });
+    moving_.hold(newer_, part_at(1, stages));
     WatchedMean mean(watched_);
     advance_all(stages, length, mean);
-    rates(newer_, length, older_);  // h L D
+    rates(newer_, length, older_);
+    moving_.heat(older_, -1, 1);  // h (L D - C^-1 g) at the end
     Step result = along_tangent(from, estimate_of(stages));
-    result.stages = {{1, from.time + length, mean.added_to(from.temperature, stages), changing_.has_value()}};
+    result.stages = stages_of(from, length, stages, mean.added_to(from.temperature, stages));
     if (changing_) leave_tangent(from, length, estimate_of(stages), result);
     return result;
   }
 
   // The local error of a short step is h^3 T'''/18 at most.
   double first_step(const Instant& from, double allowed) override {
-    if (changing_) follow(from.temperature);
+    if (changing_) follow(from);
     start({from.time, from.temperature, Eigen::VectorXd::Zero(inverse_.size())}, 1);
     newer_ = start_;
     for (int order = 2; order <= 3; ++order) {
@@ -109,6 +112,9 @@ class StabilisedScheme : public TimeScheme {
     return largest > 0 ? std::cbrt(18 * allowed / largest) : std::numeric_limits<double>::infinity();
   }
 
+  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override {
+    return {{0, 1.0 / 6}, {0.5, 2.0 / 3}, {1, 1.0 / 6}};
+  }
   [[nodiscard]] double safety() const override { return 1; }
   [[nodiscard]] Sums sums() const override { return Sums::plain; }
   [[nodiscard]] double cost_exponent() const override { return 0.5; }
@@ -129,14 +135,14 @@ class StabilisedScheme : public TimeScheme {
     }
   }
 
-  void linearise(const Eigen::VectorXd& temperature) {
-    linear_ = balance_.linearised(temperature, drives_.at(0));
+  void linearise(const Instant& at) {
+    linear_ = balance_.linearised(at.temperature, drives_.at(at.time));
     inverse_ = linear_.capacity.cwiseInverse();
     for (const NodeId node : model_.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
   }
 
-  void follow(const Eigen::VectorXd& temperature) {
-    linearise(temperature);
+  void follow(const Instant& from) {
+    linearise(from);
     stable_ = changing_->at(linear_);
   }
 
@@ -148,13 +154,24 @@ class StabilisedScheme : public TimeScheme {
     });
   }
 
+  // What the ledger is given: flows are linear, so the mean's are the same at all three times of the drive.
+  [[nodiscard]] std::vector<Stage> stages_of(const Instant& from, double length, int stages, Eigen::VectorXd mean) const {
+    std::optional<double> tangent;
+    if (changing_) tangent = from.time;
+    if (moving_.empty()) return {{1, from.time + length, std::move(mean), tangent}};
+    const DriveWeights weights = drive_weights(stages);
+    return {{weights.start, from.time, mean, tangent},
+            {weights.middle, from.time + 0.5 * length, mean, tangent},
+            {weights.end, from.time + length, mean, tangent}};
+  }
+
   // Change and errors of the step that has been taken.
   Step along_tangent(const Instant& from, double estimate) const {
     Step result;
     result.change.resize(start_.rows());
     result.error.resize(start_.rows());
     result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
-      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0));
+      const double local = inverse_[row] > 0 ? estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) : 0;
       result.change[row] = newer_(row, 0);
       result.error[row] = from.error[row] + newer_(row, 1) + local;
       return std::abs(local);
@@ -164,16 +181,17 @@ class StabilisedScheme : public TimeScheme {
 
   // What the step's change is of the enthalpy, it becomes of the temperature, and so do the errors.
   void leave_tangent(const Instant& from, double length, double estimate, Step& result) {
-    const Drive& drive = drives_.at(from.time);
+    const Drive& drive = drives_.at(from.time + length);
     const Eigen::VectorXd heat = linear_.capacity.cwiseProduct(newer_.col(0));
     result.change = balance_.temperature_after(from.temperature, heat) - from.temperature;
-    for (const NodeId node : model_.fixed_nodes) result.change[node.value()] = 0;
+    for (const NodeId node : model_.fixed_nodes) result.change[node.value()] = newer_(node.value(), 0);
     const Eigen::VectorXd end = from.temperature + result.change;
     const Eigen::VectorXd heating = balance_.heating(end, drive);
     const Eigen::VectorXd capacity = capacity_at(model_, end);
     result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
+      if (inverse_[row] == 0) return 0.0;
       const double along = start_(row, 0) - older_(row, 0);
-      const double bent = length * inverse_[row] * heating[row] - (inverse_[row] > 0 ? along : 0);
+      const double bent = length * inverse_[row] * heating[row] - along;
       const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
       const double shrinks = linear_.capacity[row] / capacity[row];
       result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
@@ -280,8 +298,18 @@ class StabilisedScheme : public TimeScheme {
           if constexpr (by_temperature) Eigen::Map<Pair>(conducted + at) = conductivity[row] * increment;
         };
       });
+      move(older_, with, j, stages);
       older_.swap(newer_);
     }
+  }
+
+  // What drives stage j beside what does from the step's start on.
+  void move(Columns& increment, const Coefficients& with, int j, int stages) {
+    if (moving_.empty()) return;
+    moving_.heat(increment, with.product, part_at(j - 1, stages));
+    moving_.hold(increment, part_at(j, stages));
+    if (!conducts_by_temperature()) return;
+    moving_.for_each_row([&](int row) { conducted_.row(row) = linear_.conductivity[row] * increment.row(row); });
   }
 
   // The same in fourth order.
@@ -306,6 +334,7 @@ class StabilisedScheme : public TimeScheme {
   const HeatModel& model_;
   Drives drives_;
   HeatBalance balance_;
+  MovingDrive moving_;
   Linearised linear_;                    // at the step's start
   Eigen::VectorXd inverse_;              // of its capacity, 0 for a fixed node [K/J]
   double stable_;                        // of eq. (8), there [s]
@@ -321,16 +350,8 @@ class StabilisedScheme : public TimeScheme {
 }  // namespace
 
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable) {
-  if (!can_be_stabilised(model)) {
-    throw InputError(problem("heat.integrator", "stabilised_explicit",
-                             "must not be asked to do conditions that change in time, nor what is not linear in fourth order",
-                             "Use the implicit integrator"));
-  }
+  SCREE_EXPECT(!model.shared_capacity || (has_constant_properties(model) && !varies_in_time(model)));
   return std::make_unique<StabilisedScheme>(model, stable ? *std::move(stable) : StableSteps(model));
-}
-
-bool can_be_stabilised(const HeatModel& model) {
-  return !varies_in_time(model) && (!model.shared_capacity || has_constant_properties(model));
 }
 
 }  // namespace scree::thermal

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "thermal/drive_defect.h"
 #include "thermal/flow_network.h"
 #include "thermal/matrix_origin.h"
 #include "thermal/solver_cost.h"
@@ -24,10 +25,10 @@ struct Instant {
 // The flows of a step are a weighted mean of those at its stages: heat content changes by exactly that, which is why the
 // ledger closes. What it reads are the temperatures of ledger_nodes(); the others may be anything.
 struct Stage {
-  double weight = 1;            // they add up to 1
-  double time = 0;              // [s]
-  Eigen::VectorXd temperature;  // [K]
-  bool tangent = false;         // whether its flows are those of the tangent at the step's start
+  double weight = 1;                // they add up to 1
+  double time = 0;                  // [s]
+  Eigen::VectorXd temperature;      // [K]
+  std::optional<double> tangent{};  // when the step began, if its flows are those of the tangent there [s]
 };
 
 struct Step {
@@ -49,6 +50,9 @@ class TimeScheme {
 
   // A step whose local error is about `allowed` [K] from a state whose past is unknown [s]; infinite if nothing changes.
   virtual double first_step(const Instant& from, double allowed) = 0;
+
+  // How V sums what drives it over a step: what the estimate takes for the drive's integral (drive_defect.h).
+  [[nodiscard]] virtual std::vector<Look> drive_quadrature(double length) const = 0;
 
   // What a scheme keeps from one step to the next beside the state, and how it takes that up again.
   [[nodiscard]] virtual MatrixOrigin matrix_origin() const { return {}; }
@@ -78,9 +82,9 @@ std::unique_ptr<TimeScheme> make_linear_scheme(const HeatModel& model, LinearSol
                                                const CostOfRun& run = SolverUse{});
 std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearSolver solver = LinearSolver::automatic,
                                                  const CostOfRun& run = SolverUse{});
-// These two throw InputError for a model that they cannot do.
+// Throws InputError for a model that it cannot do.
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
-// `stable`: those of the model, if they are known already.
+// In fourth order conditions must stay and all must be linear. `stable`: those of the model, if they are known already.
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable = {});
 // Steps of up to `longest_short` [s] by the one, longer ones by the other; both are of the same model.
 std::unique_ptr<TimeScheme> make_mixed_scheme(std::unique_ptr<TimeScheme> of_short, std::unique_ptr<TimeScheme> of_long,
@@ -89,8 +93,5 @@ std::unique_ptr<TimeScheme> make_mixed_scheme(std::unique_ptr<TimeScheme> of_sho
 // The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them (and in fourth
 // order those joined to these), and those that exchange heat with surroundings. Ascending.
 std::vector<NodeId> ledger_nodes(const HeatModel& model);
-
-// Conditions must stay, and in fourth order all must be linear.
-bool can_be_stabilised(const HeatModel& model);
 
 }  // namespace scree::thermal

@@ -1,4 +1,5 @@
 // What drives a run in time, and jumps or comes and goes within its steps.
+#include <array>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -16,8 +17,11 @@ using test::options_for;
 using test::rock_only;
 using test::slab_mesh;
 
-TimeOptions an_hour() {
+constexpr std::array integrators{Integrator::implicit, Integrator::stabilised_explicit};
+
+TimeOptions an_hour(Integrator integrator) {
   TimeOptions options;
+  options.integrator = integrator;
   options.until = 3600;
   options.output_every = 3600;
   options.tolerance = 0.1;
@@ -25,37 +29,42 @@ TimeOptions an_hour() {
 }
 
 // An hour between two outputs of a source in a slab of 1 m2, one metre deep.
-HeatState after_an_hour_of(const Function& source) {
+HeatState after_an_hour_of(const Function& source, Integrator integrator) {
   const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
   HeatOptions options = options_for(mesh, 300);
   options.sources.push_back({test::on(BodyId{0}, between_x(0, 1)), source, "pulse", {}});
   const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
-  HeatRun run(model, an_hour());
+  HeatRun run(model, an_hour(integrator));
   run.advance_to(3600);
   return run.state();
 }
 
 // 1e7 W/m3 for 10 s of an hour come in, whatever the output interval leaps over.
 TEST(ChangingDrives, APulseInATableIsNotLeaptOver) {
-  for (const double ramp : {5.0, 1e-3}) {
-    const HeatState state = after_an_hour_of(Function::from_table(
-        LinearTable({0, 2000 - ramp, 2000, 2010 - ramp, 2010, 3600}, {0, 0, 1e7, 1e7, 0, 0}), ValueRule{}));
-    EXPECT_NEAR(state.ledger.by_applied[0] / 1e8, 1, 0.01) << ramp;
-    EXPECT_LT(state.steps, 200);
+  for (const Integrator integrator : integrators) {
+    for (const double ramp : {5.0, 1e-3}) {
+      const Function source = Function::from_table(
+          LinearTable({0, 2000 - ramp, 2000, 2010 - ramp, 2010, 3600}, {0, 0, 1e7, 1e7, 0, 0}), ValueRule{});
+      const HeatState state = after_an_hour_of(source, integrator);
+      EXPECT_NEAR(state.ledger.by_applied[0] / 1e8, 1, 0.01) << ramp;
+      EXPECT_LT(state.steps, 200);
+    }
   }
 }
 
 TEST(ChangingDrives, APulseInAFormulaIsNotLeaptOver) {
   const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
-  const auto heat_of = [&](const std::string& formula) {
-    const HeatState state = after_an_hour_of(Function::from_expression(formula, unit, ValueRule{}));
-    EXPECT_LT(state.steps, 1500) << formula;
-    return state.ledger.by_applied[0];
-  };
-  EXPECT_NEAR(heat_of("1e7*(t > 2000)*(t < 2010)") / 1e8, 1, 0.01);
-  EXPECT_NEAR(heat_of("1e7*exp(-((t - 2000)/20)^2)") / (1e7 * 20 * std::sqrt(std::numbers::pi)), 1, 0.01);
-  EXPECT_NEAR(heat_of("1e6*(t > 1000)*(t < 1200)*(x + 1)") / 3e8, 1, 0.01) << "another value at every place";
-  EXPECT_NEAR(heat_of("1e6*(sin(2*pi*t/90) > 0)") / 1.8e9, 1, 0.01) << "on for 45 s and off for 45 s, forty times";
+  for (const Integrator integrator : integrators) {
+    const auto heat_of = [&](const std::string& formula) {
+      const HeatState state = after_an_hour_of(Function::from_expression(formula, unit, ValueRule{}), integrator);
+      EXPECT_LT(state.steps, 1500) << formula;
+      return state.ledger.by_applied[0];
+    };
+    EXPECT_NEAR(heat_of("1e7*(t > 2000)*(t < 2010)") / 1e8, 1, 0.01);
+    EXPECT_NEAR(heat_of("1e7*exp(-((t - 2000)/20)^2)") / (1e7 * 20 * std::sqrt(std::numbers::pi)), 1, 0.01);
+    EXPECT_NEAR(heat_of("1e6*(t > 1000)*(t < 1200)*(x + 1)") / 3e8, 1, 0.01) << "another value at every place";
+    EXPECT_NEAR(heat_of("1e6*(sin(2*pi*t/90) > 0)") / 1.8e9, 1, 0.01) << "on for 45 s and off for 45 s, forty times";
+  }
 }
 
 // An insulated block keeps every error that its steps make, so that the estimate must be that of the heat that came in.
@@ -65,11 +74,13 @@ TEST(ChangingDrives, TheErrorOfLoadsThatJumpWithinStepsIsEstimatedAndBounded) {
   const double power = 1e6;
   const double warming = power / (*rock.density * (*rock.specific_heat)(300));  // [K/s]
   const auto off = [&](const Function& source, double seconds) {
-    const HeatState state = after_an_hour_of(source);
-    const double error = std::abs(state.temperature[0] - 300 - warming * seconds);
-    EXPECT_LT(error, 0.1);
-    EXPECT_LE(error, 1.1 * state.time_error);
-    EXPECT_LT(state.time_error, 0.1);
+    for (const Integrator integrator : integrators) {
+      const HeatState state = after_an_hour_of(source, integrator);
+      const double error = std::abs(state.temperature[0] - 300 - warming * seconds);
+      EXPECT_LT(error, 0.1);
+      EXPECT_LE(error, 1.1 * state.time_error);
+      EXPECT_LT(state.time_error, 0.1);
+    }
   };
   for (const double begin : {10.03, 333.77, 1799.0, 2718.28}) {
     for (const double length : {12.3, 37.52, 777.7}) {
@@ -99,14 +110,16 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
     options.boundaries.push_back(air);
     const HeatModel model = make_heat_model(mesh, materials, contact::ContactSet<2>{}, options);
     const double rate = 0.5 * 0.04 / model.capacity.sum();  // of the whole, which is of one temperature
-    HeatRun run(model, an_hour());
-    double largest = 0;
-    run.advance_to(3600, [&](double time) {
-      const double exact = time < begin ? 300 : 500 - 200 * std::exp(-rate * (time - begin));
-      largest = std::max(largest, std::abs(run.state().temperature.mean() - exact));
-    });
-    EXPECT_LT(largest, 0.1) << begin;
-    EXPECT_LE(largest, 1.1 * run.state().time_error) << begin;
+    for (const Integrator integrator : integrators) {
+      HeatRun run(model, an_hour(integrator));
+      double largest = 0;
+      run.advance_to(3600, [&](double time) {
+        const double exact = time < begin ? 300 : 500 - 200 * std::exp(-rate * (time - begin));
+        largest = std::max(largest, std::abs(run.state().temperature.mean() - exact));
+      });
+      EXPECT_LT(largest, 0.1) << begin;
+      EXPECT_LE(largest, 1.1 * run.state().time_error) << begin;
+    }
   }
 }
 

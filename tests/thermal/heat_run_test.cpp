@@ -185,23 +185,6 @@ TEST(HeatRun, ChoosesProductsForLooseJointsAndAFactorisationForStiffOnes) {
   EXPECT_THAT(solver(1e6), testing::HasSubstr("CHOLMOD"));
 }
 
-TEST(HeatRun, StabilisedExplicitStepsRefuseConditionsThatChangeInTime) {
-  const auto swinging = [](HeatOptions& options) {
-    const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
-    ValueRule rule;
-    rule.quantity = quantity::temperature;
-    options.boundaries.push_back({test::on(BodyId{0}, test::between_x(0, 0)),
-                                  FixedTemperature{Function::from_expression("300 + sin(t)", unit, rule)},
-                                  "left",
-                                  {}});
-  };
-  const HeatModel model = rubble_model<2>(10, swinging);
-  TimeOptions options = times(10, 1, 0.1);
-  EXPECT_THAT(HeatRun(model, options).solver(), testing::HasSubstr("CHOLMOD"));
-  options.integrator = Integrator::stabilised_explicit;
-  EXPECT_THROW(HeatRun(model, options), InputError);
-}
-
 TEST(HeatRun, ABlockOfOneElementWarmsAtTheRateOfItsCapacity) {
   mesh::BlockMesh<3> mesh;
   mesh.bodies.push_back({"stone", MaterialId{0}, false, {}});

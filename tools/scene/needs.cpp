@@ -75,15 +75,14 @@ std::string changing_condition(const thermal::HeatOptions& heat) {
   return {};
 }
 
-// Euler's steps and those of fourth order in space are for linear equations, stabilised ones for conditions that stay.
+// Euler's steps and those of fourth order in space are for linear equations, these for conditions that stay, too.
 void check_integrator(const Scene& scene, const Checked& heat, Problems& problems) {
   using enum thermal::Integrator;
   const thermal::TimeOptions& time = scene.heat->time;
   const bool fourth = scene.heat->space_order == thermal::SpaceOrder::fourth;
-  const bool stabilised = fourth || time.integrator == stabilised_explicit;
-  if (time.steady || (!stabilised && time.integrator != explicit_euler)) return;
-  std::string reason = fourth || !stabilised ? changing_equations(scene) : std::string();
-  if (reason.empty() && stabilised) reason = changing_condition(*scene.heat);
+  if (time.steady || (!fourth && time.integrator != explicit_euler)) return;
+  std::string reason = changing_equations(scene);
+  if (reason.empty() && fourth) reason = changing_condition(*scene.heat);
   if (reason.empty()) return;
   const Checked& asked = heat.at(fourth ? "space_order" : "integrator");
   problems.push_back(asked.problem(asked.text, "does only what does not change: " + reason,

@@ -1,0 +1,228 @@
+// Stabilised explicit steps under conditions that change in time (moving_drive.h), beside implicit ones.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/temp_folder.h"
+#include "tests/thermal/builders.h"
+#include "tests/verification/formula.h"
+#include "thermal/drive.h"
+#include "thermal/heat_run.h"
+#include "thermal/rkl2.h"
+#include "thermal/time_scheme.h"
+
+namespace scree::thermal {
+namespace {
+
+using test::formula;
+
+// What acts on two bars with a joint: the left end is held, the right one in a wind and under a sky, the left bar heated.
+struct Conditions {
+  std::string name;
+  std::string held = "350";
+  std::string flow = "1e5";
+  std::string air = "280";
+  std::string wind = "20";
+  std::string sky{};  // empty: nothing is radiated
+  Curve conductivity = 2.0;
+  Curve specific_heat = 800.0;
+};
+
+std::vector<Conditions> all_that_changes() {
+  const std::string warmer = "(320 + 60*sin(t/90) + 200*x)";
+  std::vector<Conditions> all(7);
+  all[0].name = "held", all[0].held = warmer;
+  all[1].name = "flow", all[1].flow = "1e5*sin(t/70)*(1 + x)";
+  all[2].name = "air", all[2].air = warmer;
+  all[3].name = "wind", all[3].wind = "20 + 15*sin(t/70)";
+  all[4].name = "sky", all[4].sky = warmer;
+  all[5] = {"everything", warmer, "1e5*sin(t/70)*(1 + x)", warmer, "20 + 15*sin(t/70)", warmer};
+  all[6] = all[5];
+  all[6].name = "everything, and properties", all[6].conductivity = test::curve("1 + 0.003*T");
+  all[6].specific_heat = test::curve("400 + T");
+  return all;
+}
+
+HeatModel driven_pair(const Conditions& conditions, double beta = 10) {
+  auto right = test::bar<2>(0.05, 4, 2, 0.025);
+  right.low[0] = 0.05;
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.05, 4, 2, 0.025), right});
+  Material rock = test::rock();
+  rock.conductivity = conditions.conductivity;
+  rock.specific_heat = conditions.specific_heat;
+  HeatOptions options = test::options_for(mesh, 320);
+  options.joint.law = StiffnessFactor{beta};
+  Boundary end = test::hold(BodyId{0}, 0, 0, "held");
+  end.condition = FixedTemperature{formula(conditions.held)};
+  options.boundaries.push_back(end);
+  end = test::hold(BodyId{1}, 0.1, 0, "wind");
+  end.condition = Convection{formula(conditions.wind), formula(conditions.air)};
+  options.boundaries.push_back(end);
+  if (!conditions.sky.empty()) {
+    end.name = "sky";
+    end.condition = Radiation{0.9, formula(conditions.sky)};
+    options.boundaries.push_back(end);
+  }
+  options.sources.push_back({test::on(BodyId{0}, std::nullopt), formula(conditions.flow), "heater", {}});
+  return make_heat_model(mesh, Table<MaterialId, Material>({rock}), test::matching_contacts(mesh), options);
+}
+
+Instant start_of(const HeatModel& model) {
+  Instant at;
+  at.temperature = held(model, model.initial, Drives(model).at(0));
+  at.error = Eigen::VectorXd::Zero(model.initial.size());
+  return at;
+}
+
+Instant after(TimeScheme& scheme, Instant at, double length, int count) {
+  const double begin = at.time;
+  for (int n = 0; n < count; ++n) {
+    at.time = begin + n * length / count;
+    const Step step = scheme.step(at, length / count);
+    at.temperature += step.change;
+    at.error = step.error;
+  }
+  at.time = begin + length;
+  return at;
+}
+
+TEST(MovingDrive, StepsAreOfSecondOrderWhateverChangesInTime) {
+  for (const Conditions& conditions : all_that_changes()) {
+    const HeatModel model = driven_pair(conditions);
+    const Instant smooth = after(*make_implicit_scheme(model), start_of(model), 200, 200);
+    const auto scheme = make_stabilised_scheme(model);
+    const Eigen::VectorXd exact = after(*make_implicit_scheme(model), smooth, 400, 8192).temperature;
+    const auto error = [&](int count) { return (after(*scheme, smooth, 400, count).temperature - exact).norm(); };
+    EXPECT_NEAR(std::log2(error(64) / error(128)), 2, 0.2) << conditions.name;
+    EXPECT_NEAR(std::log2(error(128) / error(256)), 2, 0.1) << conditions.name;
+  }
+}
+
+// With steps from far below to far above the fastest time scale of a joint.
+TEST(MovingDrive, StepsKeepTheirToleranceAndTheirLedger) {
+  for (const Conditions& conditions : all_that_changes()) {
+    for (const double beta : {0.1, 100.0}) {
+      const HeatModel model = driven_pair(conditions, beta);
+      TimeOptions time;
+      time.until = 1200;
+      time.output_every = 300;
+      time.tolerance = 1e-3;
+      time.integrator = Integrator::implicit;
+      HeatRun exact(model, time);
+      exact.advance_to(time.until);
+      for (const double tolerance : {3.0, 0.3, 0.03}) {
+        time.tolerance = tolerance;
+        time.integrator = Integrator::stabilised_explicit;
+        HeatRun run(model, time);
+        run.advance_to(time.until);
+        const std::string what = fmt::format("{}, beta {}, {} K", conditions.name, beta, tolerance);
+        const double error = (run.state().temperature - exact.state().temperature).lpNorm<Eigen::Infinity>();
+        EXPECT_LE(error, run.state().error.lpNorm<Eigen::Infinity>() + exact.state().time_error) << what;
+        EXPECT_TRUE(run.within_tolerance()) << what;
+        EXPECT_LT(run.state().ledger.relative_residual(), 1e-12) << what;
+        EXPECT_EQ(run.state().factorisations, 0) << what;
+      }
+    }
+  }
+}
+
+// In the ledger each flow is what implicit steps find, not only their sum.
+TEST(MovingDrive, EachFlowOfTheLedgerIsThatOfImplicitSteps) {
+  for (const Conditions& conditions : all_that_changes()) {
+    const HeatModel model = driven_pair(conditions);
+    TimeOptions time;
+    time.until = 1200;
+    time.output_every = 1200;
+    time.tolerance = 0.01;
+    const auto ledger = [&](Integrator integrator) {
+      time.integrator = integrator;
+      HeatRun run(model, time);
+      run.advance_to(time.until);
+      return run.state().ledger;
+    };
+    const Ledger a = ledger(Integrator::stabilised_explicit);
+    const Ledger b = ledger(Integrator::implicit);
+    const double small = 1e-4 * b.turnover;
+    EXPECT_NEAR(a.by_boundary[0], b.by_boundary[0], small) << conditions.name;
+    EXPECT_NEAR(a.by_applied[0], b.by_applied[0], small) << conditions.name;
+    for (std::size_t e = 0; e < model.exchanges.size(); ++e) {
+      EXPECT_NEAR(a.by_surroundings[e], b.by_surroundings[e], small) << conditions.name;
+    }
+    EXPECT_NEAR(a.turnover, b.turnover, 0.01 * b.turnover) << conditions.name;
+  }
+}
+
+TEST(MovingDrive, AConditionThatIsSaidToChangeButStaysMakesNoDifference) {
+  Conditions stays;
+  stays.sky = "250";
+  Conditions said = stays;
+  for (std::string* text : {&said.held, &said.flow, &said.air, &said.wind, &said.sky}) *text += " + 0*t";
+  const HeatModel one = driven_pair(stays);
+  const HeatModel other = driven_pair(said);
+  ASSERT_FALSE(varies_in_time(one));
+  ASSERT_TRUE(varies_in_time(other));
+  Instant at = start_of(one);
+  at.error = 1e-3 * at.temperature.array().sin();
+  for (const NodeId node : one.fixed_nodes) at.error[node.value()] = 0;
+  for (const double length : {0.1, 10.0, 300.0}) {
+    const Step a = make_stabilised_scheme(one)->step(at, length);
+    const Step b = make_stabilised_scheme(other)->step(at, length);
+    EXPECT_LT((a.change - b.change).lpNorm<Eigen::Infinity>(), 1e-11) << length;
+    EXPECT_LT((a.error - b.error).lpNorm<Eigen::Infinity>(), 1e-11) << length;
+    EXPECT_NEAR(a.local_error, b.local_error, 1e-11) << length;
+  }
+}
+
+TEST(MovingDrive, StepsGoOnFromAFileToTheBit) {
+  const auto file = scree::test::temp_folder() / "moving.h5";
+  const HeatModel model = driven_pair(all_that_changes().back());
+  TimeOptions time;
+  time.integrator = Integrator::stabilised_explicit;
+  time.until = 60;
+  time.output_every = 20;
+  HeatRun whole(model, time);
+  whole.advance_to(20);
+  write(whole.state(), "key", file);
+  whole.advance_to(60);
+  HeatRun resumed(model, time, read_state(file, "key"));
+  resumed.advance_to(60);
+  EXPECT_EQ(resumed.state().temperature, whole.state().temperature);
+  EXPECT_EQ(resumed.state().error, whole.state().error);
+  EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual());
+}
+
+TEST(MovingDrive, StabilisedStepsAreChosenWhereTheyCostLess) {
+  TimeOptions time;
+  time.until = 600;
+  time.output_every = 100;
+  for (const Conditions& conditions : all_that_changes()) {
+    EXPECT_THAT(HeatRun(driven_pair(conditions, 0.1), time).solver(), testing::StartsWith("RKL2")) << conditions.name;
+  }
+}
+
+// A node that nothing but a load acts on warms by the quadrature itself.
+TEST(MovingDrive, TheDriveIsSummedWithTheWeightsOfTheScheme) {
+  for (const int stages : {3, 5, 9, 33}) {
+    const auto summed = [&](auto&& drive) {
+      double older = 0;
+      double newer = rkl2::first_coefficient(stages) * drive(0.0);
+      for (int j = 2; j <= stages; ++j) {
+        const rkl2::Coefficients with = rkl2::coefficients(j, stages);
+        older = with.mu * newer + with.nu * older + (with.start - with.product) * drive(0.0) +
+                with.product * drive(rkl2::part_at(j - 1, stages));
+        std::swap(older, newer);
+      }
+      return newer;
+    };
+    const rkl2::DriveWeights weights = rkl2::drive_weights(stages);
+    EXPECT_NEAR(weights.start + weights.middle + weights.end, summed([](double) { return 1; }), 1e-13) << stages;
+    EXPECT_NEAR(0.5 * weights.middle + weights.end, summed([](double part) { return part; }), 1e-13) << stages;
+    EXPECT_NEAR(0.25 * weights.middle + weights.end, summed([](double part) { return part * part; }), 1e-13) << stages;
+    EXPECT_NEAR(rkl2::part_at(stages, stages), summed([](double) { return 1; }), 1e-13) << "the last stage is the step's end";
+  }
+}
+
+}  // namespace
+}  // namespace scree::thermal
