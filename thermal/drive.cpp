@@ -129,11 +129,11 @@ const Drive& Drives::at(double time) {
   return recent_.front();
 }
 
-Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd temperature, const Drive& drive) {
+Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd values, const Eigen::VectorXd& fixed) {
   for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
-    temperature[model.fixed_nodes[i].value()] = drive.fixed[static_cast<Eigen::Index>(i)];
+    values[model.fixed_nodes[i].value()] = fixed[static_cast<Eigen::Index>(i)];
   }
-  return temperature;
+  return values;
 }
 
 }  // namespace scree::thermal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <list>
+#include <utility>
 
 #include "thermal/heat_model.h"
 
@@ -49,7 +50,11 @@ class Drives {
   std::list<Drive> recent_;  // the latest first
 };
 
-// `temperature` with the fixed nodes at what the drive holds them at.
-Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd temperature, const Drive& drive);
+// `values` with those of the fixed nodes, in their order, in the place of theirs; temperatures, with what the drive holds them
+// at.
+Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd values, const Eigen::VectorXd& fixed);
+inline Eigen::VectorXd held(const HeatModel& model, Eigen::VectorXd temperature, const Drive& drive) {
+  return held(model, std::move(temperature), drive.fixed);
+}
 
 }  // namespace scree::thermal

@@ -1,6 +1,7 @@
 #include "thermal/drive_defect.h"
 
 #include <cmath>
+#include <utility>
 
 #include "thermal/exchange.h"
 
@@ -51,6 +52,12 @@ void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
   }
 }
 
+// By how much more a held temperature counts [K].
+double missed_of(const Hold& hold, const Eigen::Vector3d& place, const Defect& defect) {
+  if (!varies_in_time(hold)) return 0;
+  return defect([&](double time) { return hold.temperature(place, time); });
+}
+
 // Exchanged heat is the coefficient times the difference of a power of both temperatures, so that what is missed is made of
 // two defects: that of what comes in, and that of the coefficient.
 void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& temperature, Eigen::VectorXd& heat) {
@@ -76,14 +83,19 @@ void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::VectorXd drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
-                             const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity) {
+DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
+                         const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity) {
   const Defect defect(quadrature, begin, length);
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
   for (const Load& load : model.loads) add(load, defect, heat);
   for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, heat);
   for (const NodeId node : model.fixed_nodes) heat[node.value()] = 0;
-  return heat.cwiseQuotient(capacity);
+  Eigen::VectorXd held(static_cast<Eigen::Index>(model.fixed_nodes.size()));
+  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
+    const Eigen::Vector3d place = model.places.col(model.fixed_nodes[i].value());
+    held[static_cast<Eigen::Index>(i)] = missed_of(model.holds[model.fixed_hold[i]], place, defect) / length;
+  }
+  return {heat.cwiseQuotient(capacity), std::move(held)};
 }
 
 }  // namespace scree::thermal

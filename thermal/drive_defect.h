@@ -1,10 +1,12 @@
-// What a step misses of loads and surroundings that jump within it.
+// What a step misses of loads, surroundings and temperatures that jump within it.
 //
 // A step sees what drives it at some times only, and its estimate of the error takes it for a parabola between them. With f
 // what comes into a node [W] and w the weights of that parabola's quadrature (TimeScheme::drive_quadrature), the estimate lacks
 //   (h sum_i w_i f(t_i) - integral of f over the step)/C,
 // which is added to it: exact for a block that nothing else acts on, and too large for nodes that pass on their heat faster
-// than the step.
+// than the step. A held temperature counts in the mean for
+//   sum_i w_i f(t_i) - integral of f over the step/h
+// more than it is: an error that its node has throughout the step, so that the scheme itself carries it to the others.
 #pragma once
 
 #include <vector>
@@ -19,8 +21,13 @@ struct Look {
   double weight;
 };
 
-// Of each row, for a step from `begin` [s]; `temperature` and `capacity` [J/K] are those at its start; zero at fixed nodes [K].
-Eigen::VectorXd drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
-                             const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity);
+struct DriveDefect {
+  Eigen::VectorXd free;  // of each row; zero at fixed nodes [K]
+  Eigen::VectorXd held;  // of the fixed nodes, in their order [K]
+};
+
+// For a step from `begin` [s]; `temperature` and `capacity` [J/K] are those at its start.
+DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
+                         const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity);
 
 }  // namespace scree::thermal

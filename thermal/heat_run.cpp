@@ -57,6 +57,10 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
   return step;
 }
 
+double largest(const Eigen::VectorXd& error) {
+  return error.lpNorm<Eigen::Infinity>();
+}
+
 }  // namespace
 
 class HeatRun::Implementation {
@@ -128,16 +132,21 @@ class HeatRun::Implementation {
         continue;
       }
       const double dt = grid.step();
-      const std::optional<Eigen::VectorXd> missed = missed_in(grid, bends);
-      if (missed && missed->lpNorm<Eigen::Infinity>() > allowed(state_.error) && grid.level() < StepGrid::max_level) {
+      const std::optional<DriveDefect> missed = missed_in(grid, bends);
+      const bool finest = grid.level() == StepGrid::max_level;
+      if (missed && largest(missed->free) > allowed(state_.error) && !finest) {
         grid.refine();
         continue;
       }
-      Step step = scheme_.scheme->step(instant(grid.time()), dt);
-      if (missed) step.error += *missed;
+      Step step = missed ? step_that_misses(*missed, grid) : scheme_.scheme->step(instant(grid.time()), dt);
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
       if (!(step.local_error <= allowed(state_.error))) {
         refine(grid, step.local_error / allowed(state_.error));
+        continue;
+      }
+      if (missed && largest(step.error) - largest(state_.error) > allowed(state_.error) && !finest) {
+        ++state_.rejected_steps;
+        grid.refine();
         continue;
       }
       grid.advance();
@@ -160,10 +169,20 @@ class HeatRun::Implementation {
   }
 
   // What the scheme's own estimate of a step does not see of jumps within it [K]; nothing if there are none.
-  [[nodiscard]] std::optional<Eigen::VectorXd> missed_in(const StepGrid& grid, const TimeBends& bends) const {
+  [[nodiscard]] std::optional<DriveDefect> missed_in(const StepGrid& grid, const TimeBends& bends) const {
     if (!bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
     return drive_defect(model_, scheme_.scheme->drive_quadrature(grid.step()), grid.time(), grid.step(), state_.temperature,
                         capacity_at(model_, state_.temperature));
+  }
+
+  // The step that the grid is at, with what it misses in its error.
+  Step step_that_misses(const DriveDefect& missed, const StepGrid& grid) {
+    Instant from = instant(grid.time());
+    from.error = held(model_, std::move(from.error), missed.held);
+    Step step = scheme_.scheme->step(from, grid.step());
+    if (!std::isfinite(step.local_error)) return step;  // it was not solved, and has no error
+    step.error = held(model_, step.error + missed.free, Eigen::VectorXd(Eigen::VectorXd::Zero(missed.held.size())));
+    return step;
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.
@@ -192,7 +211,7 @@ class HeatRun::Implementation {
 
   // How much error a step may add [K].
   [[nodiscard]] double allowed(const Eigen::VectorXd& error) const {
-    const double room = aim * options_.tolerance / scheme_.scheme->safety() - error.lpNorm<Eigen::Infinity>();
+    const double room = aim * options_.tolerance / scheme_.scheme->safety() - largest(error);
     return share_of_room * std::max(room, least_room * options_.tolerance);
   }
 
@@ -214,7 +233,7 @@ class HeatRun::Implementation {
           fmt::format("The temperatures are not finite after {:g} s. Look for huge loads or almost empty blocks", time));
     }
     state_.time = time;
-    state_.time_error = std::max(state_.time_error, scheme_.scheme->safety() * state_.error.lpNorm<Eigen::Infinity>());
+    state_.time_error = std::max(state_.time_error, scheme_.scheme->safety() * largest(state_.error));
     ++state_.steps;
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);

@@ -123,5 +123,42 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
   }
 }
 
+// One of two bars that is held where they touch, from 300 K on; beside a run with a hundredth of the tolerance.
+void expect_estimated(const std::string& held, double beta, Integrator integrator) {
+  const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
+  auto right = bar<2>(0.2, 4, 1, 0.05);
+  right.low[0] = 0.2;
+  const auto mesh = slab_mesh<2>({bar<2>(0.2, 4, 1, 0.05), right});
+  HeatOptions options = options_for(mesh, 300);
+  options.joint.law = StiffnessFactor{beta};
+  Boundary end = test::hold(BodyId{0}, 0.2, 0, "end");
+  end.condition = FixedTemperature{Function::from_expression(held, unit, ValueRule{})};
+  options.boundaries.push_back(end);
+  const HeatModel model = make_heat_model(mesh, rock_only(), test::matching_contacts(mesh), options);
+  const auto after_an_hour = [&](Integrator by, double tolerance) {
+    TimeOptions time = an_hour(by);
+    time.tolerance = tolerance;
+    HeatRun run(model, time);
+    run.advance_to(3600);
+    return run.state();
+  };
+  const HeatState exact = after_an_hour(Integrator::implicit, 1e-3);
+  const HeatState state = after_an_hour(integrator, 0.1);
+  EXPECT_LE((state.temperature - exact.temperature).lpNorm<Eigen::Infinity>(), state.time_error + exact.time_error)
+      << held << ", beta " << beta;
+  EXPECT_LT(state.time_error, 0.1) << held << ", beta " << beta;
+  EXPECT_LT(state.steps, 150) << held << ", beta " << beta;
+}
+
+TEST(ChangingDrives, TheErrorOfHeldTemperaturesThatJumpOrBendWithinStepsIsEstimatedAndBounded) {
+  for (const double begin : {10.03, 333.77, 1001.1, 2222.2, 2718.28, 3300.5}) {
+    for (const std::string& held :
+         {fmt::format("300 + 50*(t > {})", begin), fmt::format("300 + (t > {0} ? 0.02*(t - {0}) : 0)", begin)}) {
+      for (const double beta : {0.1, 1e3, 1e9}) expect_estimated(held, beta, Integrator::implicit);
+      for (const double beta : {0.1, 1e3}) expect_estimated(held, beta, Integrator::stabilised_explicit);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scree::thermal
