@@ -34,20 +34,16 @@ class RunCosts {
   RunCosts(const HeatModel& model, const TimeOptions& options, double stable)
       : options_(options),
         stable_(stable),
-        use_of_(use_of_steps(model)),
-        product_(seconds_per_entry * static_cast<double>(entries_of(model))) {}
+        costs_{seconds_per_entry * static_cast<double>(entries_of(model)), use_of_steps(model), varies_in_time(model)} {}
 
   [[nodiscard]] double products() const { return forecast_steps(stable_, options_).products; }
-  [[nodiscard]] double stabilised() const { return products() * product_; }
-  [[nodiscard]] StepMix mixed(const SolverCost& solver) const {
-    return cheapest_mix(stable_, options_, product_, use_of_, solver);
-  }
+  [[nodiscard]] double stabilised() const { return products() * costs_.product; }
+  [[nodiscard]] StepMix mixed(const SolverCost& solver) const { return cheapest_mix(stable_, options_, costs_, solver); }
 
  private:
   const TimeOptions& options_;
   double stable_;
-  UseOfSteps use_of_;
-  double product_;
+  StepCosts costs_;
 };
 
 // Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of

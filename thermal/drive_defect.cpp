@@ -1,7 +1,7 @@
 #include "thermal/drive_defect.h"
 
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "thermal/exchange.h"
 
@@ -52,10 +52,21 @@ void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
   }
 }
 
-// By how much more a held temperature counts [K].
-double missed_of(const Hold& hold, const Eigen::Vector3d& place, const Defect& defect) {
-  if (!varies_in_time(hold)) return 0;
-  return defect([&](double time) { return hold.temperature(place, time); });
+// By how much more held temperatures count, in the order of the fixed nodes [K s].
+Eigen::VectorXd missed_of_held(const HeatModel& model, const Defect& defect) {
+  std::vector<std::optional<double>> everywhere(model.holds.size());  // of those that are the same at all their places
+  Eigen::VectorXd missed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
+  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
+    const Hold& hold = model.holds[model.fixed_hold[i]];
+    if (!varies_in_time(hold)) continue;
+    std::optional<double>& known = everywhere[model.fixed_hold[i]];
+    const Eigen::Vector3d place = model.places.col(model.fixed_nodes[i].value());
+    if (!known || hold.temperature.varies_in_place()) {
+      known = defect([&](double time) { return hold.temperature(place, time); });
+    }
+    missed[static_cast<Eigen::Index>(i)] = *known;
+  }
+  return missed;
 }
 
 // Exchanged heat is the coefficient times the difference of a power of both temperatures, so that what is missed is made of
@@ -90,12 +101,7 @@ DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadra
   for (const Load& load : model.loads) add(load, defect, heat);
   for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, heat);
   for (const NodeId node : model.fixed_nodes) heat[node.value()] = 0;
-  Eigen::VectorXd held(static_cast<Eigen::Index>(model.fixed_nodes.size()));
-  for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
-    const Eigen::Vector3d place = model.places.col(model.fixed_nodes[i].value());
-    held[static_cast<Eigen::Index>(i)] = missed_of(model.holds[model.fixed_hold[i]], place, defect) / length;
-  }
-  return {heat.cwiseQuotient(capacity), std::move(held)};
+  return {heat.cwiseQuotient(capacity), missed_of_held(model, defect) / length};
 }
 
 }  // namespace scree::thermal

@@ -44,12 +44,16 @@ void for_each_length(double first, const TimeOptions& options, const Visit& visi
   visit(EqualSteps{length, 0, to});
 }
 
-// A stabilised step takes 2 sqrt(length/stable) products, about.
+// Of a stabilised step, about.
+double products_of(double length, double stable) {
+  return 2 * std::sqrt(length / stable);
+}
+
 void add(const EqualSteps& steps, double stable, StepForecast& forecast) {
   const double count = steps.count_before(steps.to);
   forecast.steps += count;
   ++forecast.lengths;
-  forecast.products += count * 2 * std::sqrt(steps.length / stable);
+  forecast.products += count * products_of(steps.length, stable);
 }
 
 }  // namespace
@@ -60,14 +64,16 @@ StepForecast forecast_steps(double stable, const TimeOptions& options) {
   return forecast;
 }
 
-StepMix cheapest_mix(double stable, const TimeOptions& options, double product, UseOfSteps use_of, const SolverCost& solver) {
+StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts& costs, const SolverCost& solver) {
   const StepForecast all = forecast_steps(stable, options);
-  StepMix best{0, 0, use_of(all)(solver)};
+  StepMix best{0, 0, costs.use_of(all)(solver)};
+  const double solves_of_step = costs.use_of({1, 0, 0}).solves * solver.solve;
   StepForecast longer;
   for_each_length(stable, options, [&](const EqualSteps& steps) {
-    if (longer.steps > 0) {
+    const bool dear = costs.lengths_may_last && products_of(steps.length, stable) * costs.product > solves_of_step;
+    if (longer.steps > 0 && !dear) {
       const double products = all.products - longer.products;
-      const double seconds = products * product + use_of(longer)(solver);
+      const double seconds = products * costs.product + costs.use_of(longer)(solver);
       if (seconds < best.seconds) best = {steps.length, products, seconds};
     }
     add(steps, stable, longer);

@@ -28,8 +28,16 @@ struct StepMix {
   double seconds = 0;        // that all of them cost
 };
 
-// `product`: what one of them takes [s]; `solver`: what solves for the implicit ones.
-StepMix cheapest_mix(double stable, const TimeOptions& options, double product, UseOfSteps use_of, const SolverCost& solver);
+struct StepCosts {
+  double product = 0;  // with K [s]
+  UseOfSteps use_of = use_of_linear_steps;
+  // Whether steps of any length may be all that a run takes, as where conditions change in time. A step that costs more in
+  // products than in solves is then left to the implicit ones, however few the forecast knows of.
+  bool lengths_may_last = false;
+};
+
+// `solver`: what solves for the implicit ones.
+StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts& costs, const SolverCost& solver);
 
 // The part of a run's work that is done by a time, so that what is left can be told from it: after a sudden start most of the
 // steps are far shorter than those at the end, and the part of the time would say for long that nearly all is left to do.

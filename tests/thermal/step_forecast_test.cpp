@@ -106,7 +106,7 @@ TEST(StepMix, CostsLeastOfAll) {
       };
       double least = seconds(0);
       for (const double length : lengths) least = std::min(least, length < options.output_every ? seconds(length) : least);
-      const StepMix mix = cheapest_mix(stable, options, 1, use_of_linear_steps, solver);
+      const StepMix mix = cheapest_mix(stable, options, {1}, solver);
       EXPECT_LE(seconds(mix.longest_short), 1.03 * least) << solve << ' ' << matrix;
       EXPECT_NEAR(mix.seconds, seconds(mix.longest_short), 0.05 * least) << solve << ' ' << matrix;
       taken.insert(mix.longest_short);
@@ -116,7 +116,15 @@ TEST(StepMix, CostsLeastOfAll) {
 }
 
 TEST(StepMix, LeavesAllStepsImplicitWhereSolvesCostNothing) {
-  EXPECT_EQ(cheapest_mix(0.01, times(43200, 600), 1, use_of_linear_steps, {}).longest_short, 0);
+  EXPECT_EQ(cheapest_mix(0.01, times(43200, 600), {1}, {}).longest_short, 0);
+}
+
+// Four solves of 5 cost as much as the twenty products of a step of 100 stable ones.
+TEST(StepMix, LeavesNoStepExplicitThatCostsMoreThanItsSolvesWhereAnyLengthMayLast) {
+  const SolverCost solver{1e4, 5};
+  const double once = cheapest_mix(1, times(51200, 3200), {1, use_of_linear_steps, false}, solver).longest_short;
+  EXPECT_GT(once, 100);
+  EXPECT_EQ(cheapest_mix(1, times(51200, 3200), {1, use_of_linear_steps, true}, solver).longest_short, 100);
 }
 
 TEST(StepForecast, WhereNothingConductsIsOneStepAnOutput) {
