@@ -77,6 +77,37 @@ TEST(RadiatingBar, EndsAtTheTemperatureOfNafemsT2) {
   EXPECT_TRUE(std::filesystem::exists(run.directory / "heat.pvd"));
 }
 
+// Of the ground at this height [m] and time [s]: Carslaw and Jaeger, section 2.6, in degrees Celsius.
+double daily_wave(double height, double time) {
+  const double conductivity = 2.6;
+  const double coefficient = 20;
+  const double rate = 2 * M_PI / 86400;
+  const double depth = std::sqrt(2 * conductivity / (2600 * 1000) / rate);
+  const double b = conductivity / (coefficient * depth);
+  const double lag = std::atan(b / (1 + b));
+  const double amplitude = 10 / std::sqrt(1 + 2 * b + 2 * b * b);
+  return 10 + amplitude * std::exp(height / depth) * std::sin(rate * time + height / depth - lag);
+}
+
+TEST(DayAndNight, IsTheWaveThatFadesAndComesLaterWithDepthWhateverTheSteps) {
+  for (const std::string integrator : {"automatic", "implicit"}) {
+    const SceneRun run = test::run("day_and_night", fresh_directory("day_" + integrator), {"heat.integrator=" + integrator});
+    ASSERT_EQ(run.exit_status, 0);
+    const auto columns = run.probes();
+    const auto& time = columns.at("time");
+    ASSERT_EQ(time.size(), 73u);
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      for (const auto& [probe, height] : {std::pair("surface", 0.0), {"at_10_cm", -0.1}, {"at_30_cm", -0.3}}) {
+        EXPECT_NEAR(columns.at(probe)[i] - celsius, daily_wave(height, time[i]), 0.012) << probe << " " << time[i];
+        EXPECT_NEAR(columns.at(std::string(probe) + " exact")[i] - celsius, daily_wave(height, time[i]), 1e-5) << time[i];
+      }
+    }
+    const std::string solver = run.summary["heat"]["solver"];
+    EXPECT_EQ(solver.find("RKL2") == 0, integrator == "automatic") << solver;
+    EXPECT_LT(run.summary["heat"]["ledger_residual"], 1e-8);
+  }
+}
+
 TEST(ShakenBar, ReachesTheTemperatureOfNafemsT3) {
   const SceneRun run = test::run("shaken_bar", fresh_directory("shaken_bar"));
   ASSERT_EQ(run.exit_status, 0);
