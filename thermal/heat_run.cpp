@@ -181,7 +181,7 @@ class HeatRun::Implementation {
     from.error = held(model_, std::move(from.error), missed.held);
     Step step = scheme_.scheme->step(from, grid.step());
     if (!std::isfinite(step.local_error)) return step;  // it was not solved, and has no error
-    step.error = held(model_, step.error + missed.free, Eigen::VectorXd(Eigen::VectorXd::Zero(missed.held.size())));
+    step.error = held(model_, step.error + missed.free, Eigen::VectorXd::Zero(missed.held.size()));
     return step;
   }
 
