@@ -14,8 +14,9 @@ constexpr double growth = 0.2;
 // What a matrix of Newton's iteration serves for, of the steps: measured 0.3 where properties change by a tenth.
 constexpr double steps_of_matrix = 0.3;
 
-// What solving for an unsymmetric matrix takes of solves for a symmetric one near it.
-constexpr double solves_of_unsymmetric = 4;
+// What solving for an unsymmetric matrix costs of solves for a symmetric one: four times as many, most of one column in single
+// precision.
+constexpr double solves_of_unsymmetric = 2;
 
 double longest_step(const TimeOptions& options) {
   return options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
