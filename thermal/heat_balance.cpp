@@ -55,13 +55,14 @@ Eigen::VectorXd at_nodes(const VaryingProperties& properties, CurveLists list, c
   return at_rows(properties, list, [&](const Curve& curve, Eigen::Index row) { return f(curve, temperature[row]); });
 }
 
-// Into node `row`, the i-th of exchange `e`; along a tangent, if there is one [W].
-double exchanged_at(Exchange::Law law, std::size_t e, Eigen::Index i, int row, const Eigen::VectorXd& temperature,
-                    const Drive& drive, const TangentPoint* tangent) {
-  if (tangent == nullptr) return exchanged_heat(law, drive.exchanges[e], i, temperature[row]);
+// Into the i-th node of an exchange, which is the model's e-th; along a tangent, if there is one [W].
+double exchanged_at(const Exchange& with, std::size_t e, Eigen::Index i, const Eigen::VectorXd& temperature, const Drive& drive,
+                    const TangentPoint* tangent) {
+  const int row = with.on.nodes[static_cast<std::size_t>(i)].value();
+  if (tangent == nullptr) return exchanged_heat(with.law, drive.exchanges[e], i, temperature[row]);
   const double at = tangent->temperature[row];
-  return exchanged_heat(law, drive.exchanges[e], i, at) -
-         exchange_slope(law, tangent->drive.exchanges[e], i, at) * (temperature[row] - at);
+  return exchanged_heat(with.law, drive.exchanges[e], i, at) -
+         exchange_slope(with.law, tangent->drive.exchanges[e], i, at) * (temperature[row] - at);
 }
 
 // Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration, which halves what is left
@@ -134,7 +135,7 @@ Eigen::VectorXd HeatBalance::heating_at(const std::vector<NodeId>& nodes, const 
     for (const NodeId node : exchange.on.nodes) {
       const auto found = std::lower_bound(nodes.begin(), nodes.end(), node);
       if (found != nodes.end() && *found == node) {
-        heat[found - nodes.begin()] += exchanged_at(exchange.law, e, row, node.value(), temperature, drive, tangent);
+        heat[found - nodes.begin()] += exchanged_at(exchange, e, row, temperature, drive, tangent);
       }
       ++row;
     }
@@ -206,9 +207,8 @@ HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen:
                                               const TangentPoint* tangent) const {
   const Exchange& with = model_.exchanges[exchange];
   Exchanged all;
-  Eigen::Index row = 0;
-  for (const NodeId node : with.on.nodes) {
-    const double heat = exchanged_at(with.law, exchange, row++, node.value(), temperature, drive, tangent);
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(with.on.nodes.size()); ++i) {
+    const double heat = exchanged_at(with, exchange, i, temperature, drive, tangent);
     all.heat += heat;
     all.size += std::abs(heat);
   }
