@@ -4,8 +4,8 @@
 //
 // In increments D_j = Y_j - T0 at the times t0 + c_j h, with L = C^-1 J, J = -dF/dT and g(c) what the drive has become more
 // by than at t0 [W]:
-//   D_j = mu D_j-1 + nu D_j-2 - mu~ h C^-1 (J D_j-1 - g(c_j-1)) + (mu~ + gamma~) h C^-1 F(T0, t0),   D_1 = mu~_1 h C^-1 F(T0,
-//   t0).
+//   D_j = mu D_j-1 + nu D_j-2 - mu~ h C^-1 (J D_j-1 - g(c_j-1)) + (mu~ + gamma~) h C^-1 F(T0, t0),
+//   D_1 = mu~_1 h C^-1 F(T0, t0).
 // The step is also h C^-1 F of the stages' weighted mean, whose difference to T0 obeys S_j = mu S_j-1 + nu S_j-2 + mu~ D_j-1:
 // that is what the ledger is given.
 //

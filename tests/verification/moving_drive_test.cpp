@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
+#include "tests/verification/stabilised.h"
 #include "thermal/drive.h"
 #include "thermal/heat_run.h"
 #include "thermal/rkl2.h"
@@ -16,7 +16,9 @@
 namespace scree::thermal {
 namespace {
 
+using test::after;
 using test::formula;
+using test::start_of;
 
 // What acts on two bars with a joint: the left end is held, the right one in a wind and under a sky, the left bar heated.
 struct Conditions {
@@ -69,25 +71,6 @@ HeatModel driven_pair(const Conditions& conditions, double beta = 10) {
   return make_heat_model(mesh, Table<MaterialId, Material>({rock}), test::matching_contacts(mesh), options);
 }
 
-Instant start_of(const HeatModel& model) {
-  Instant at;
-  at.temperature = held(model, model.initial, Drives(model).at(0));
-  at.error = Eigen::VectorXd::Zero(model.initial.size());
-  return at;
-}
-
-Instant after(TimeScheme& scheme, Instant at, double length, int count) {
-  const double begin = at.time;
-  for (int n = 0; n < count; ++n) {
-    at.time = begin + n * length / count;
-    const Step step = scheme.step(at, length / count);
-    at.temperature += step.change;
-    at.error = step.error;
-  }
-  at.time = begin + length;
-  return at;
-}
-
 TEST(MovingDrive, StepsAreOfSecondOrderWhateverChangesInTime) {
   for (const Conditions& conditions : all_that_changes()) {
     const HeatModel model = driven_pair(conditions);
@@ -104,26 +87,8 @@ TEST(MovingDrive, StepsAreOfSecondOrderWhateverChangesInTime) {
 TEST(MovingDrive, StepsKeepTheirToleranceAndTheirLedger) {
   for (const Conditions& conditions : all_that_changes()) {
     for (const double beta : {0.1, 100.0}) {
-      const HeatModel model = driven_pair(conditions, beta);
-      TimeOptions time;
-      time.until = 1200;
-      time.output_every = 300;
-      time.tolerance = 1e-3;
-      time.integrator = Integrator::implicit;
-      HeatRun exact(model, time);
-      exact.advance_to(time.until);
-      for (const double tolerance : {3.0, 0.3, 0.03}) {
-        time.tolerance = tolerance;
-        time.integrator = Integrator::stabilised_explicit;
-        HeatRun run(model, time);
-        run.advance_to(time.until);
-        const std::string what = fmt::format("{}, beta {}, {} K", conditions.name, beta, tolerance);
-        const double error = (run.state().temperature - exact.state().temperature).lpNorm<Eigen::Infinity>();
-        EXPECT_LE(error, run.state().error.lpNorm<Eigen::Infinity>() + exact.state().time_error) << what;
-        EXPECT_TRUE(run.within_tolerance()) << what;
-        EXPECT_LT(run.state().ledger.relative_residual(), 1e-12) << what;
-        EXPECT_EQ(run.state().factorisations, 0) << what;
-      }
+      test::expect_kept(driven_pair(conditions, beta), 1200, {3.0, 0.3, 0.03},
+                        fmt::format("{}, beta {}", conditions.name, beta));
     }
   }
 }
@@ -163,34 +128,11 @@ TEST(MovingDrive, AConditionThatIsSaidToChangeButStaysMakesNoDifference) {
   const HeatModel other = driven_pair(said);
   ASSERT_FALSE(varies_in_time(one));
   ASSERT_TRUE(varies_in_time(other));
-  Instant at = start_of(one);
-  at.error = 1e-3 * at.temperature.array().sin();
-  for (const NodeId node : one.fixed_nodes) at.error[node.value()] = 0;
-  for (const double length : {0.1, 10.0, 300.0}) {
-    const Step a = make_stabilised_scheme(one)->step(at, length);
-    const Step b = make_stabilised_scheme(other)->step(at, length);
-    EXPECT_LT((a.change - b.change).lpNorm<Eigen::Infinity>(), 1e-11) << length;
-    EXPECT_LT((a.error - b.error).lpNorm<Eigen::Infinity>(), 1e-11) << length;
-    EXPECT_NEAR(a.local_error, b.local_error, 1e-11) << length;
-  }
+  test::expect_equal_steps(one, other, 1e-11);
 }
 
 TEST(MovingDrive, StepsGoOnFromAFileToTheBit) {
-  const auto file = scree::test::temp_folder() / "moving.h5";
-  const HeatModel model = driven_pair(all_that_changes().back());
-  TimeOptions time;
-  time.integrator = Integrator::stabilised_explicit;
-  time.until = 60;
-  time.output_every = 20;
-  HeatRun whole(model, time);
-  whole.advance_to(20);
-  write(whole.state(), "key", file);
-  whole.advance_to(60);
-  HeatRun resumed(model, time, read_state(file, "key"));
-  resumed.advance_to(60);
-  EXPECT_EQ(resumed.state().temperature, whole.state().temperature);
-  EXPECT_EQ(resumed.state().error, whole.state().error);
-  EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual());
+  test::expect_resumed_to_the_bit(driven_pair(all_that_changes().back()), "moving.h5");
 }
 
 TEST(MovingDrive, StabilisedStepsAreChosenWhereTheyCostLess) {

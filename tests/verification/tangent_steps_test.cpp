@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
+#include "tests/verification/stabilised.h"
 #include "thermal/drive.h"
 #include "thermal/heat_run.h"
 #include "thermal/stable_step.h"
@@ -15,6 +15,9 @@
 
 namespace scree::thermal {
 namespace {
+
+using test::after;
+using test::start_of;
 
 struct Rock {
   const char* name;
@@ -64,25 +67,6 @@ HeatModel radiating_pair(const Rock& rock, double beta = 10) {
   return make_heat_model(mesh, of(rock), test::matching_contacts(mesh), options);
 }
 
-Instant start_of(const HeatModel& model) {
-  Instant at;
-  at.temperature = held(model, model.initial, Drives(model).at(0));
-  at.error = Eigen::VectorXd::Zero(model.initial.size());
-  return at;
-}
-
-Instant after(TimeScheme& scheme, Instant at, double length, int count) {
-  const double begin = at.time;
-  for (int n = 0; n < count; ++n) {
-    at.time = begin + n * length / count;
-    const Step step = scheme.step(at, length / count);
-    at.temperature += step.change;
-    at.error = step.error;
-  }
-  at.time = begin + length;
-  return at;
-}
-
 TEST(TangentSteps, AreOfSecondOrderWhateverDependsOnTemperature) {
   for (const Rock& rock : rocks()) {
     if (!rock.smooth) continue;  // a table has kinks
@@ -96,31 +80,9 @@ TEST(TangentSteps, AreOfSecondOrderWhateverDependsOnTemperature) {
   }
 }
 
-// From a sudden start; the state is that of implicit steps a hundred times as exact.
-void expect_kept(const HeatModel& model, double until, const std::string& name) {
-  TimeOptions time;
-  time.until = until;
-  time.output_every = until / 4;
-  time.tolerance = 1e-3;
-  time.integrator = Integrator::implicit;
-  HeatRun exact(model, time);
-  exact.advance_to(until);
-  for (const double tolerance : {1.0, 0.1}) {
-    time.tolerance = tolerance;
-    time.integrator = Integrator::stabilised_explicit;
-    HeatRun run(model, time);
-    run.advance_to(until);
-    const double error = (run.state().temperature - exact.state().temperature).lpNorm<Eigen::Infinity>();
-    EXPECT_LE(error, run.state().error.lpNorm<Eigen::Infinity>() + exact.state().time_error) << name << " " << tolerance;
-    EXPECT_TRUE(run.within_tolerance()) << name << " " << tolerance;
-    EXPECT_LT(run.state().ledger.relative_residual(), 1e-12) << name << " " << tolerance;
-    EXPECT_EQ(run.state().factorisations, 0);
-  }
-}
-
 TEST(TangentSteps, KeepTheirToleranceAndTheirLedger) {
   for (const Rock& rock : rocks()) {
-    for (const double beta : {0.1, 100.0}) expect_kept(radiating_pair(rock, beta), 600, rock.name);
+    for (const double beta : {0.1, 100.0}) test::expect_kept(radiating_pair(rock, beta), 600, {1.0, 0.1}, rock.name);
   }
 }
 
@@ -128,41 +90,18 @@ TEST(TangentSteps, KeepTheirToleranceWhereSomethingMelts) {
   const auto mesh = test::slab_mesh<2>({test::bar<2>(0.1, 8, 2, 0.025)});
   HeatOptions options = test::options_for(mesh, 260);
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 300, "warm"));
-  expect_kept(make_heat_model(mesh, of({"melting", 2.0, melting()}), {}, options), 4000, "melting");
+  test::expect_kept(make_heat_model(mesh, of({"melting", 2.0, melting()}), {}, options), 4000, {1.0, 0.1}, "melting");
 }
 
 TEST(TangentSteps, AreThoseOfConstantPropertiesWhereNothingBends) {
   const HeatModel constant = radiating_pair({"constant", 2.0, 800.0});
   const HeatModel flat = radiating_pair({"flat", table({200, 900}, {2, 2}), table({200, 900}, {800, 800})});
   ASSERT_TRUE(flat.varying && flat.varying->unit_conductance.nonZeros() > 0);
-  Instant at = start_of(constant);
-  at.error = 1e-3 * at.temperature.array().sin();
-  for (const NodeId node : constant.fixed_nodes) at.error[node.value()] = 0;
-  for (const double length : {0.1, 10.0, 300.0}) {
-    const Step a = make_stabilised_scheme(constant)->step(at, length);
-    const Step b = make_stabilised_scheme(flat)->step(at, length);
-    EXPECT_LT((a.change - b.change).lpNorm<Eigen::Infinity>(), 1e-10) << length;
-    EXPECT_LT((a.error - b.error).lpNorm<Eigen::Infinity>(), 1e-10) << length;
-    EXPECT_NEAR(a.local_error, b.local_error, 1e-10) << length;
-  }
+  test::expect_equal_steps(constant, flat, 1e-10);
 }
 
 TEST(TangentSteps, GoOnFromAFileToTheBit) {
-  const auto file = scree::test::temp_folder() / "tangent.h5";
-  const HeatModel model = radiating_pair(rocks().back());
-  TimeOptions time;
-  time.integrator = Integrator::stabilised_explicit;
-  time.until = 60;
-  time.output_every = 20;
-  HeatRun whole(model, time);
-  whole.advance_to(20);
-  write(whole.state(), "key", file);
-  whole.advance_to(60);
-  HeatRun resumed(model, time, read_state(file, "key"));
-  resumed.advance_to(60);
-  EXPECT_EQ(resumed.state().temperature, whole.state().temperature);
-  EXPECT_EQ(resumed.state().error, whole.state().error);
-  EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual());
+  test::expect_resumed_to_the_bit(radiating_pair(rocks().back()), "tangent.h5");
 }
 
 TEST(TangentSteps, AreChosenWhereTheyCostLess) {
