@@ -65,14 +65,14 @@ double exchanged_at(const Exchange& with, std::size_t e, Eigen::Index i, const E
          exchange_slope(with.law, tangent->drive.exchanges[e], i, at) * (temperature[row] - at);
 }
 
-// Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration, which halves what is left
-// where it would leave it.
-double integrated_to(const Curve& curve, double from, double rise) {
+// Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration from a guess on, which halves
+// what is left where it would leave it.
+double integrated_to(const Curve& curve, double from, double rise, double guess) {
   if (curve.constant()) return from + rise / *curve.constant();
   const double wanted = integral(curve, from) + rise;
   double low = -std::numeric_limits<double>::infinity();
   double high = -low;
-  double at = from + rise / value(curve, from);
+  double at = guess;
   for (int iteration = 0; iteration < most_iterations && std::isfinite(at); ++iteration) {
     const double over = integral(curve, at) - wanted;
     (over > 0 ? high : low) = at;
@@ -161,11 +161,12 @@ double HeatBalance::stored_in_all(const Eigen::VectorXd& from, const Eigen::Vect
   return model_.varying ? stored(from, to).sum() : model_.capacity.cwiseProduct(to - from).sum();
 }
 
-Eigen::VectorXd HeatBalance::temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat) const {
+Eigen::VectorXd HeatBalance::temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat,
+                                               const Eigen::VectorXd& guess) const {
   if (!model_.varying) return from + heat.cwiseQuotient(model_.capacity);
   const VaryingProperties& properties = *model_.varying;
   return at_rows(properties, &VaryingProperties::specific_heat, [&](const Curve& specific_heat, Eigen::Index row) {
-    return integrated_to(specific_heat, from[row], heat[row] / properties.mass[row]);
+    return integrated_to(specific_heat, from[row], heat[row] / properties.mass[row], guess[row]);
   });
 }
 
@@ -185,6 +186,12 @@ Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& tempe
   if (!model.varying) return model.capacity;
   const VaryingProperties& properties = *model.varying;
   return properties.mass.cwiseProduct(at_nodes(properties, &VaryingProperties::specific_heat, temperature, value));
+}
+
+Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd& temperature) {
+  if (!model.varying) return Eigen::VectorXd::Zero(temperature.size());
+  return at_nodes(*model.varying, &VaryingProperties::specific_heat, temperature,
+                  [](const Curve& curve, double at) { return curve.slope(at) / value(curve, at); });
 }
 
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {

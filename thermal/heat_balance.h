@@ -32,6 +32,9 @@ Eigen::VectorXd loss_to_surroundings(const HeatModel& model, const Eigen::Vector
 // C = dH/dT of each node [J/K].
 Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& temperature);
 
+// dC/dT over C of each node [1/K], 0 where it is not known (Curve::slope).
+Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd& temperature);
+
 class HeatBalance {
  public:
   explicit HeatBalance(const HeatModel& model, Sums sums = Sums::extended);  // refers to it
@@ -52,8 +55,10 @@ class HeatBalance {
   [[nodiscard]] double stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
   [[nodiscard]] double stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
-  // The temperatures at which each node has stored so much heat [J], up from `from`; what is not finite stays so.
-  [[nodiscard]] Eigen::VectorXd temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat) const;
+  // The temperatures at which each node has stored so much heat [J], up from `from`, looked for from `guess` on; what is not
+  // finite stays so.
+  [[nodiscard]] Eigen::VectorXd temperature_after(const Eigen::VectorXd& from, const Eigen::VectorXd& heat,
+                                                  const Eigen::VectorXd& guess) const;
 
   [[nodiscard]] Linearised linearised(const Eigen::VectorXd& temperature, const Drive& drive) const;
 

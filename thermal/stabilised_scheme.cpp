@@ -1,11 +1,15 @@
 // The scheme of rkl2.h, along the tangent at the start of each step: with C, J and F of the temperatures T0 there,
-//   C D' = F(T0, t) - J D,    H(T1) - H(T0) = C D(h),
-// H the enthalpy. Where nothing depends on temperature that is the equation itself, and T1 = T0 + D(h). Where something does,
-// it leaves out what bends within a step, O(h^3) as the scheme's own error, and the operator whose largest eigenvalue sets the
-// number of stages is known beforehand and holds for the whole step. Heat that flows along the tangent is what the ledger
-// books, so it closes.
+//   C D' = F(T0, t) - J x(D),    H(T1) - H(T0) = C D(h),
+// H the enthalpy, and x(D) what the temperature has become more by, along a parabola where c depends on it (bent_storage.h).
+// Where nothing depends on temperature that is the equation itself, and T1 = T0 + D(h). Where something does, it leaves out
+// what else bends within a step, O(h^3) as the scheme's own error, and the largest eigenvalue that sets the number of stages is
+// known beforehand and holds for the whole step. Heat that flows along the tangent is what the ledger books, so it closes: the
+// mean that it is given is of x.
 //
-// Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J D) is half of F''(D, D),
+// With x = D the nodes of stiff joints would end beside each other where they belong together, each by what its own enthalpy
+// bends: half a millikelvin, of which the flow at the next step's start, and the estimate of rkl2.h with it, makes 8 mK.
+//
+// Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J x) is half of F''(D, D),
 // so -h/3 C^-1 times that is added. A coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1)
 // times what they are of D. The global error is carried by the scheme itself as a second column of each product.
 #include <algorithm>
@@ -14,10 +18,12 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "engine/base/huge_pages.h"
+#include "thermal/bent_storage.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/moving_drive.h"
@@ -69,6 +75,7 @@ class StabilisedScheme : public TimeScheme {
         drives_(model),
         balance_(model, Sums::plain),
         moving_(model),
+        storage_(model),
         stable_(stable.at_start().step),
         sharing_(model.shared_capacity ? &*model.shared_capacity : nullptr, Sums::plain),
         watched_(ledger_nodes(model)) {
@@ -77,11 +84,12 @@ class StabilisedScheme : public TimeScheme {
     resize({&start_, &newer_, &older_});
     if (!sharing_.empty()) resize({&rates_, &beside_});
     if (conducts_by_temperature()) resize({&beside_, &conducted_});
+    if (storage_) resize({&warmer_, &next_warmer_});
   }
 
   Step step(const Instant& from, double length) override {
     if (changing_) follow(from);
-    const int stages = stages_for(length, stable_);
+    const int stages = stages_for(storage_ ? (1 + BentStorage::most_bend) * length : length, stable_);
     start(from, length);
     if (!moving_.empty()) moving_.fit(balance_, drives_, from.time, length, from.temperature, inverse_);
     for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
@@ -89,10 +97,11 @@ class StabilisedScheme : public TimeScheme {
       newer_.middleRows(row, rows) = first_coefficient(stages) * start_.middleRows(row, rows);
     });
     moving_.hold(newer_, part_at(1, stages));
+    if (storage_) warm();
     WatchedMean mean(watched_);
     advance_all(stages, length, mean);
-    rates(newer_, length, older_);
-    moving_.heat(older_, -1, 1);  // h (L D - C^-1 g) at the end
+    rates(increments(), length, older_);
+    moving_.heat(older_, -1, 1);  // h (L x - C^-1 g) at the end
     Step result = along_tangent(from, estimate_of(stages));
     result.stages = stages_of(from, length, stages, mean.added_to(from.temperature, stages));
     if (changing_) leave_tangent(from, length, estimate_of(stages), result);
@@ -144,6 +153,7 @@ class StabilisedScheme : public TimeScheme {
   void follow(const Instant& from) {
     linearise(from);
     stable_ = changing_->at(linear_);
+    if (storage_) storage_.fit(from.temperature);
   }
 
   // Calls visit(first row, number of rows) on all threads for all rows.
@@ -183,7 +193,8 @@ class StabilisedScheme : public TimeScheme {
   void leave_tangent(const Instant& from, double length, double estimate, Step& result) {
     const Drive& drive = drives_.at(from.time + length);
     const Eigen::VectorXd heat = linear_.capacity.cwiseProduct(newer_.col(0));
-    result.change = balance_.temperature_after(from.temperature, heat) - from.temperature;
+    result.change =
+        balance_.temperature_after(from.temperature, heat, from.temperature + increments().col(0)) - from.temperature;
     for (const NodeId node : model_.fixed_nodes) result.change[node.value()] = newer_(node.value(), 0);
     const Eigen::VectorXd end = from.temperature + result.change;
     const Eigen::VectorXd heating = balance_.heating(end, drive);
@@ -268,39 +279,60 @@ class StabilisedScheme : public TimeScheme {
 
   // Stages 2 to `stages`, each in the place of the one before the last.
   void advance_all(int stages, double length, WatchedMean& mean) {
-    if (!sharing_.empty()) {
-      advance_by_rates(stages, length, mean);
-    } else if (conducts_by_temperature()) {
-      conduct(newer_);
-      advance<true>(stages, length, mean);
+    if (!sharing_.empty()) return advance_by_rates(stages, length, mean);
+    if (conducts_by_temperature()) conduct(increments());
+    const auto advance_these = [&](auto conducts, auto stores) { advance<conducts.value, stores.value>(stages, length, mean); };
+    if (conducts_by_temperature()) {
+      storage_ ? advance_these(std::true_type(), std::true_type()) : advance_these(std::true_type(), std::false_type());
     } else {
-      advance<false>(stages, length, mean);
+      storage_ ? advance_these(std::false_type(), std::true_type()) : advance_these(std::false_type(), std::false_type());
     }
   }
 
-  template <bool by_temperature>
+  // Whether a conductivity, and whether a specific heat depends on temperature.
+  template <bool conducts, bool stores>
   void advance(int stages, double length, WatchedMean& mean) {
     for (int j = 2; j <= stages; ++j) {
       const Coefficients with = coefficients(j, stages);
-      if constexpr (by_temperature) lay_beside(conducted_);
-      balance_.flows().for_each_part<2>(newer_.data(), [&](int first, int rows) {
-        mean.advance(j, with, newer_, first, rows);
-        return [with, scale = with.product * length, newer = newer_.data(), older = older_.data(), start = start_.data(),
-                loss = linear_.loss.data(), inverse = inverse_.data(), beside = beside_.data(), conducted = conducted_.data(),
-                conductivity = linear_.conductivity.data()](int row, const double* flow) {
-          const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
-          const ConstPair here(newer + at);
-          Eigen::Map<Pair> increment(older + at);
-          Pair leaving = ConstPair(flow) + loss[row] * here;
-          if constexpr (by_temperature) leaving += ConstPair(beside + at);
-          increment =
-              with.mu * here + with.nu * increment - (scale * inverse[row]) * leaving + with.start * ConstPair(start + at);
-          if constexpr (by_temperature) Eigen::Map<Pair>(conducted + at) = conductivity[row] * increment;
-        };
+      if constexpr (conducts) lay_beside(conducted_);
+      const Columns& warmer = stores ? warmer_ : newer_;
+      balance_.flows().for_each_part<2>(warmer.data(), [&](int first, int rows) {
+        mean.advance(j, with, warmer, first, rows);
+        return
+            [with, scale = with.product * length, newer = newer_.data(), older = older_.data(), start = start_.data(),
+             loss = linear_.loss.data(), inverse = inverse_.data(), beside = beside_.data(), conducted = conducted_.data(),
+             conductivity = linear_.conductivity.data(), warmer = warmer.data(),
+             next = stores ? next_warmer_.data() : older_.data(), bend = storage_.slope().data()](int row, const double* flow) {
+              const std::ptrdiff_t at = 2 * static_cast<std::ptrdiff_t>(row);
+              Eigen::Map<Pair> increment(older + at);
+              Pair leaving = ConstPair(flow) + loss[row] * ConstPair(warmer + at);
+              if constexpr (conducts) leaving += ConstPair(beside + at);
+              increment = with.mu * ConstPair(newer + at) + with.nu * increment - (scale * inverse[row]) * leaving +
+                          with.start * ConstPair(start + at);
+              if constexpr (stores) {
+                next[at] = BentStorage::rise(bend[row], increment[0]);
+                next[at + 1] = increment[1];
+              }
+              if constexpr (conducts) Eigen::Map<Pair>(conducted + at) = conductivity[row] * ConstPair(next + at);
+            };
       });
       move(older_, with, j, stages);
       older_.swap(newer_);
+      if constexpr (stores) warmer_.swap(next_warmer_);
     }
+  }
+
+  // What the nodes are warmer by, and their errors: D, or x of it.
+  [[nodiscard]] const Columns& increments() const { return storage_ ? warmer_ : newer_; }
+
+  // x of D.
+  void warm() {
+    for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
+      for (Eigen::Index i = row; i < row + rows; ++i) warm(newer_, i, warmer_);
+    });
+  }
+  void warm(const Columns& heat, Eigen::Index row, Columns& warmer) const {
+    warmer.row(row) << BentStorage::rise(storage_.slope()[row], heat(row, 0)), heat(row, 1);
   }
 
   // What drives stage j beside what does from the step's start on.
@@ -308,8 +340,10 @@ class StabilisedScheme : public TimeScheme {
     if (moving_.empty()) return;
     moving_.heat(increment, with.product, part_at(j - 1, stages));
     moving_.hold(increment, part_at(j, stages));
+    if (storage_) moving_.for_each_row([&](int row) { warm(increment, row, next_warmer_); });
     if (!conducts_by_temperature()) return;
-    moving_.for_each_row([&](int row) { conducted_.row(row) = linear_.conductivity[row] * increment.row(row); });
+    const Columns& warmer = storage_ ? next_warmer_ : increment;
+    moving_.for_each_row([&](int row) { conducted_.row(row) = linear_.conductivity[row] * warmer.row(row); });
   }
 
   // The same in fourth order.
@@ -335,6 +369,7 @@ class StabilisedScheme : public TimeScheme {
   Drives drives_;
   HeatBalance balance_;
   MovingDrive moving_;
+  BentStorage storage_;
   Linearised linear_;                    // at the step's start
   Eigen::VectorXd inverse_;              // of its capacity, 0 for a fixed node [K/J]
   double stable_;                        // of eq. (8), there [s]
@@ -343,6 +378,7 @@ class StabilisedScheme : public TimeScheme {
   std::vector<NodeId> watched_;
   // Of the step: h C^-1 F at its start, and D of the last two stages.
   Columns start_, newer_, older_;
+  Columns warmer_, next_warmer_;  // x of D of the last and of the next stage, where c depends on temperature
   // Where a stage takes more than a product with K: h L D in fourth order, what a second product gave, and k D.
   Columns rates_, beside_, conducted_;
 };

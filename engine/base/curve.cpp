@@ -19,6 +19,7 @@ struct Curve::Form {
   Form& operator=(const Form&) = delete;
 
   [[nodiscard]] virtual double value(double temperature) const = 0;
+  [[nodiscard]] virtual double slope(double temperature) const = 0;
   [[nodiscard]] virtual double integral(double temperature) const = 0;
 };
 
@@ -28,6 +29,7 @@ class Tabulated : public Curve::Form {
  public:
   explicit Tabulated(LinearTable table) : table_(std::move(table)) {}
   [[nodiscard]] double value(double temperature) const override { return table_(temperature); }
+  [[nodiscard]] double slope(double temperature) const override { return table_.slope(temperature); }
   [[nodiscard]] double integral(double temperature) const override { return table_.integral(temperature); }
 
  private:
@@ -70,6 +72,13 @@ class Piece {
 
   [[nodiscard]] double value(double temperature) const { return polynomial(powers_, (temperature - centre_) * inverse_); }
 
+  [[nodiscard]] double slope(double temperature) const {
+    const double s = (temperature - centre_) * inverse_;
+    double sum = 0;
+    for (std::size_t power = gauss_count; power-- > 1;) sum = sum * s + static_cast<double>(power) * powers_[power];
+    return sum * inverse_;
+  }
+
   // From its beginning to its end, or to a temperature.
   [[nodiscard]] double whole() const { return whole_; }
   [[nodiscard]] double integral_to(double temperature) const { return polynomial(rises_, (temperature - centre_) * inverse_); }
@@ -101,6 +110,11 @@ class Formula : public Curve::Form {
     const double result = kept != nullptr && kept->smooth ? kept->piece.value(temperature) : raw(temperature);
     if (!rule_.holds(result)) refuse(result, temperature);
     return result;
+  }
+
+  [[nodiscard]] double slope(double temperature) const override {
+    const Kept* kept = kept_at(temperature);
+    return kept != nullptr && kept->smooth ? kept->piece.slope(temperature) : 0;
   }
 
   [[nodiscard]] double integral(double temperature) const override {
@@ -236,6 +250,10 @@ Curve Curve::from_table(const std::filesystem::path& file, const ValueRule& rule
 
 double Curve::operator()(double temperature) const {
   return form_ ? form_->value(temperature) : constant_;
+}
+
+double Curve::slope(double temperature) const {
+  return form_ ? form_->slope(temperature) : 0;
 }
 
 double Curve::integral(double temperature) const {

@@ -32,6 +32,10 @@ class Curve {
   // temperature at which a formula breaks the rule.
   double operator()(double temperature) const;
 
+  // Of its value over temperature [per K], from any thread. Where a formula bends or jumps, below 0 K and from 5,000 K on it is
+  // not known and taken for 0.
+  [[nodiscard]] double slope(double temperature) const;
+
   // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, which is halved where
   // the formula bends or jumps: exact to rounding for polynomials to the ninth degree, rising wherever the formula is positive.
   [[nodiscard]] double integral(double temperature) const;

@@ -32,6 +32,12 @@ double LinearTable::operator()(double place) const {
   return values_[i] + share * (values_[i + 1] - values_[i]);
 }
 
+double LinearTable::slope(double place) const {
+  if (place < first() || place >= last()) return 0;
+  const std::size_t i = interval(place);
+  return (values_[i + 1] - values_[i]) / (places_[i + 1] - places_[i]);
+}
+
 double LinearTable::integral_from_first(double place) const {
   if (place <= first()) return (place - first()) * values_.front();
   if (place >= last()) return sums_.back() + (place - last()) * values_.back();

@@ -12,6 +12,9 @@ class LinearTable {
 
   double operator()(double place) const;
 
+  // At a place between two of the table's; of the interval above at one of these, and 0 beyond the ends.
+  [[nodiscard]] double slope(double place) const;
+
   // From place 0, exact.
   [[nodiscard]] double integral(double place) const;
 

@@ -54,6 +54,29 @@ TEST(Curve, TheIntegralOfATableIsExact) {
   EXPECT_NEAR(one.integral(700), 3500, 1e-12);
 }
 
+TEST(Curve, TheSlopeOfATableIsThatOfTheIntervalAbove) {
+  const Curve curve = Curve::from_table(LinearTable({300, 400, 600}, {1, 3, 2}));
+  EXPECT_EQ(curve.slope(200), 0);
+  EXPECT_EQ(curve.slope(300), 0.02);
+  EXPECT_EQ(curve.slope(400), -0.005);
+  EXPECT_EQ(curve.slope(599), -0.005);
+  EXPECT_EQ(curve.slope(600), 0);
+  EXPECT_EQ(Curve(800).slope(300), 0);
+  EXPECT_EQ(Curve::from_table(LinearTable({300}, {5})).slope(300), 0);
+}
+
+TEST(Curve, TheSlopeOfAFormulaIsItsDerivativeWhereItIsSmooth) {
+  const Curve wave = formula("3 + sin(T/20) + exp(-T/100)");
+  for (const double T : {0.0, 0.3, 273.15, 999.99, 1234.5, 4999.5}) {
+    EXPECT_NEAR(wave.slope(T), std::cos(T / 20) / 20 - std::exp(-T / 100) / 100, 1e-8) << T;
+  }
+  EXPECT_EQ(wave.slope(-1), 0);
+  EXPECT_EQ(wave.slope(5000), 0);
+  const Curve kink = formula("1 + abs(T - 400.7)");
+  EXPECT_NEAR(kink.slope(400.5), -1, 1e-8);
+  EXPECT_NEAR(kink.slope(400.9), 1, 1e-8);
+}
+
 TEST(Curve, TheIntegralOfAFormulaMatchesItsAntiderivative) {
   const Curve cubic = formula("2 + 1e-3*T + 4e-9*T^3");
   for (const double T : {0.0, 0.3, 273.15, 1234.5, 5000.0, 6100.0}) {

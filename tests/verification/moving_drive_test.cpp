@@ -94,6 +94,23 @@ TEST(MovingDrive, StepsKeepTheirToleranceAndTheirLedger) {
 }
 
 // In the ledger each flow is what implicit steps find, not only their sum.
+// Both sides of a stiff joint follow the swing, each by its own enthalpy: 1.28 times as many along the tangent alone.
+TEST(MovingDrive, ASpecificHeatThatRisesMakesHardlyMoreSteps) {
+  const auto steps = [](const Curve& specific_heat) {
+    Conditions swing{"swing", "350 + 40*sin(t/3600)", "0"};
+    swing.specific_heat = specific_heat;
+    TimeOptions time;
+    time.until = 28800;
+    time.output_every = 1200;
+    time.tolerance = 0.1;
+    time.integrator = Integrator::stabilised_explicit;
+    HeatRun run(driven_pair(swing, 100), time);
+    run.advance_to(time.until);
+    return static_cast<double>(run.state().steps);
+  };
+  EXPECT_LE(steps(test::curve("720 + 0.8*(T - 250)")), 1.05 * steps(800.0));
+}
+
 TEST(MovingDrive, EachFlowOfTheLedgerIsThatOfImplicitSteps) {
   for (const Conditions& conditions : all_that_changes()) {
     const HeatModel model = driven_pair(conditions);

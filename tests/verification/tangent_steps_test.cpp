@@ -158,7 +158,7 @@ TEST(StableSteps, AreBoundedAtEveryTemperatureByTheLargestEigenvalue) {
   }
 }
 
-TEST(TemperatureAfter, HeatIsThatWhichStoresIt) {
+TEST(TemperatureAfter, HeatIsThatWhichStoresItWhereverItIsLookedFor) {
   std::vector<Rock> all = rocks();
   all.push_back({"melting", 2.0, melting()});
   all.push_back({"jump", 2.0, test::curve("T < 300 ? 500 : 2000")});
@@ -169,8 +169,10 @@ TEST(TemperatureAfter, HeatIsThatWhichStoresIt) {
       for (const double to : {1.0, 272.9, 301.0, 1500.0}) {
         const auto all_at = [&](double t) { return Eigen::VectorXd::Constant(model.initial.size(), t).eval(); };
         const Eigen::VectorXd heat = balance.stored(all_at(from), all_at(to));
-        const Eigen::VectorXd found = balance.temperature_after(all_at(from), heat);
-        EXPECT_LT((found.array() - to).abs().maxCoeff(), 1e-12 * (from + to)) << rock.name << " " << from << " " << to;
+        for (const double guess : {from, to, 280.0, 2000.0}) {
+          const Eigen::VectorXd found = balance.temperature_after(all_at(from), heat, all_at(guess));
+          EXPECT_LT((found.array() - to).abs().maxCoeff(), 1e-12 * (from + to)) << rock.name << " " << from << " " << to;
+        }
       }
     }
   }

@@ -1,0 +1,67 @@
+#include "thermal/bent_storage.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/thermal/builders.h"
+#include "tests/verification/formula.h"
+
+namespace scree::thermal {
+namespace {
+
+HeatModel bar_of(const Curve& specific_heat) {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.1, 4, 2, 0.025)});
+  Material rock = test::rock();
+  rock.specific_heat = specific_heat;
+  HeatOptions options = test::options_for(mesh, 300);
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 300, "held"));
+  return make_heat_model(mesh, Table<MaterialId, Material>({rock}), {}, options);
+}
+
+TEST(BentStorage, IsThereOnlyWhereASpecificHeatDependsOnTemperature) {
+  EXPECT_FALSE(BentStorage(bar_of(800.0)));
+  EXPECT_TRUE(BentStorage(bar_of(test::curve("500 + T"))));
+}
+
+TEST(BentStorage, FollowsTheEnthalpyToSecondOrder) {
+  const HeatModel model = bar_of(test::curve("500 + T + 1e-3*(T - 300)^2"));
+  BentStorage storage(model);
+  storage.fit(model.initial);
+  const Eigen::VectorXd capacity = capacity_at(model, model.initial);
+  const Eigen::Index row = model.initial.size() - 1;
+  const auto off = [&](double heat) {
+    const Eigen::VectorXd stored = heat * capacity;
+    const double warmer = HeatBalance(model).temperature_after(model.initial, stored, model.initial)[row] - model.initial[row];
+    return std::abs(BentStorage::rise(storage.slope()[row], heat) - warmer);
+  };
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_NEAR(std::log2(off(sign * 16) / off(sign * 8)), 3, 0.1);
+    EXPECT_NEAR(std::log2(off(sign * 8) / off(sign * 4)), 3, 0.05);
+  }
+}
+
+TEST(BentStorage, LeavesFixedNodesAsWarmAsTheyAreHeld) {
+  const HeatModel model = bar_of(test::curve("500 + T"));
+  BentStorage storage(model);
+  storage.fit(model.initial);
+  ASSERT_FALSE(model.fixed_nodes.empty());
+  for (const NodeId node : model.fixed_nodes) EXPECT_EQ(BentStorage::rise(storage.slope()[node.value()], 7), 7);
+}
+
+TEST(BentStorage, BendsNoMoreThanTheStagesAllowFor) {
+  constexpr double most = BentStorage::most_bend;
+  for (const double slope : {0.0, 1e-3, -1e-3, 0.5, -20.0}) {
+    for (double heat = -100; heat < 100; heat += 0.125) {
+      const double rise = BentStorage::rise(slope, heat);
+      const double per_heat = (BentStorage::rise(slope, heat + 0.125) - rise) / 0.125;
+      EXPECT_LE(std::abs(per_heat - 1), most * (1 + 1e-9)) << slope << " " << heat;
+      if (std::abs(slope * heat) < most) {
+        EXPECT_NEAR(rise, heat - 0.5 * slope * heat * heat, 1e-13) << slope << " " << heat;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scree::thermal

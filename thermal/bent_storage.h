@@ -1,0 +1,49 @@
+// How much warmer heat makes a node within a stabilised step, where c depends on temperature.
+//
+// With D the heat over the step's first capacity [K], H(T) - H(T0) = C(T0) D gives to second order
+//   T - T0 = x(D) = D - q D^2/2,  q = (dC/dT)/C at T0.
+// Its slope is 1 - q D. It bends by `most_bend` at most, and is straight from there on: then the step's operator is
+// J diag(x'), whose eigenvalues are at most 1 + most_bend times those of J. What is left of C(T) is the step's own error.
+#pragma once
+
+#include <algorithm>
+
+#include "thermal/heat_balance.h"
+
+namespace scree::thermal {
+
+class BentStorage {
+ public:
+  // Of rock between 25 and 100 C c rises by a tenth: steps of 20 K follow it.
+  static constexpr double most_bend = 1.0 / 32;
+
+  explicit BentStorage(const HeatModel& model)
+      : model_(model),
+        bends_(model.varying && std::any_of(model.varying->specific_heat.begin(), model.varying->specific_heat.end(),
+                                            [](const Curve& c) { return !c.constant(); })) {}
+
+  // Whether any c depends on temperature; else T - T0 is D, and nothing else may be called.
+  [[nodiscard]] explicit operator bool() const { return bends_; }
+
+  // At the temperatures T0. Fixed nodes are as warm as they are held.
+  void fit(const Eigen::VectorXd& temperature) {
+    slope_ = capacity_slope_at(model_, temperature);
+    for (const NodeId node : model_.fixed_nodes) slope_[node.value()] = 0;
+  }
+
+  // x of D in one row [K].
+  [[nodiscard]] static double rise(double slope, double heat) {
+    const double bend = std::clamp(slope * heat, -most_bend, most_bend);
+    return bend == slope * heat ? heat - 0.5 * bend * heat : heat - bend * (heat - 0.5 * bend / slope);
+  }
+
+  // q of each row [1/K].
+  [[nodiscard]] const Eigen::VectorXd& slope() const { return slope_; }
+
+ private:
+  const HeatModel& model_;
+  bool bends_;
+  Eigen::VectorXd slope_;
+};
+
+}  // namespace scree::thermal
