@@ -22,13 +22,15 @@ Ledger Bookkeeper::open(const Eigen::VectorXd& temperature) const {
   return ledger;
 }
 
+void Bookkeeper::book_jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Ledger& ledger) const {
+  give(stored_in_fixed(before, after), ledger);
+  ledger.stored = balance_.stored_in_all(model_.initial, after);
+}
+
 // Heat that comes in here and leaves there under one name flows all the same: the turnover counts each node by itself.
 void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double length, Ledger& ledger) {
   const Eigen::VectorXd after = before + step.change;
-  Eigen::VectorXd held(static_cast<Eigen::Index>(model_.fixed_nodes.size()));
-  for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
-    held[static_cast<Eigen::Index>(i)] = balance_.stored_at(model_.fixed_nodes[i], before, after);
-  }
+  Eigen::VectorXd held = stored_in_fixed(before, after);
   for (const Stage& stage : step.stages) {
     const double duration = stage.weight * length;
     const Drive& drive = drives_.at(stage.time);
@@ -45,12 +47,24 @@ void Bookkeeper::book(const Step& step, const Eigen::VectorXd& before, double le
       ledger.turnover += duration * size;
     }
   }
+  give(held, ledger);
+  ledger.stored = balance_.stored_in_all(model_.initial, after);
+}
+
+Eigen::VectorXd Bookkeeper::stored_in_fixed(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+  Eigen::VectorXd stored(static_cast<Eigen::Index>(model_.fixed_nodes.size()));
+  for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+    stored[static_cast<Eigen::Index>(i)] = balance_.stored_at(model_.fixed_nodes[i], before, after);
+  }
+  return stored;
+}
+
+void Bookkeeper::give(const Eigen::VectorXd& held, Ledger& ledger) const {
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
     const double heat = held[static_cast<Eigen::Index>(i)];
     ledger.by_boundary[model_.fixed_hold[i]] += heat;
     ledger.turnover += std::abs(heat);
   }
-  ledger.stored = balance_.stored_in_all(model_.initial, after);
 }
 
 }  // namespace scree::thermal

@@ -15,12 +15,19 @@ class Bookkeeper {
   // A ledger in which nothing has flowed but what the holds need to bring about `temperature` at the start.
   [[nodiscard]] Ledger open(const Eigen::VectorXd& temperature) const;
 
+  // What the holds need to bring fixed nodes from one temperature to another at once.
+  void book_jump(const Eigen::VectorXd& before, const Eigen::VectorXd& after, Ledger& ledger) const;
+
   // A step of this length from `before`.
   void book(const Step& step, const Eigen::VectorXd& before, double length, Ledger& ledger);
 
  private:
   const HeatModel& model_;
   Drives drives_;
+  // Into the fixed nodes, one entry each [J].
+  void give(const Eigen::VectorXd& held, Ledger& ledger) const;
+  [[nodiscard]] Eigen::VectorXd stored_in_fixed(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
+
   HeatBalance balance_;
   std::optional<HeldShares> shares_;  // in fourth order
 };

@@ -122,10 +122,34 @@ class HeatRun::Implementation {
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
  private:
+  // Each stretch between two jumps has steps of its own, which know nothing of these.
   void chosen_steps(double begin, double length, const std::function<void(double)>& progress) {
+    const double end = begin + length;
+    const TimeBends bends(model_, begin, end);
+    if (bends.jumps().empty()) return smooth_steps(begin, length, bends, progress);
+    double from = begin;
+    for (const Jump& jump : bends.jumps()) {
+      if (jump.before > from) smooth_steps(from, jump.before - from, bends, progress);
+      leap(jump.after);
+      from = jump.after;
+    }
+    if (from < end) smooth_steps(from, end - from, bends, progress);
+  }
+
+  // What follows is as sudden as a start.
+  void leap(double time) {
+    const Eigen::VectorXd after = held(model_, state_.temperature, drives_.at(time));
+    bookkeeper_.book_jump(state_.temperature, after, state_.ledger);
+    state_.temperature = after;
+    state_.reached.include(after);
+    include_drive(time);
+    state_.time = time;
+    state_.next_step = 0;
+  }
+
+  void smooth_steps(double begin, double length, const TimeBends& bends, const std::function<void(double)>& progress) {
     if (state_.next_step <= 0) state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error));
     StepGrid grid(begin, length, state_.next_step);
-    const TimeBends bends(model_, begin, begin + length);
     while (!grid.done()) {
       if (leaps(grid, bends)) {
         grid.refine();

@@ -11,9 +11,11 @@ namespace scree::thermal {
 
 class StepGrid {
  public:
-  // The coarsest steps that are no longer than `wanted`.
+  // The coarsest steps that are no longer than `wanted`, but for rounding: that is as long as a step of another interval, which
+  // may have been cut short by a few roundings at a jump.
   StepGrid(double start, double length, double wanted) : start_(start), length_(length) {
-    while (step() > wanted && level_ < max_level) ++level_;
+    constexpr double as_long = 1 + 1e-9;
+    while (step() > as_long * wanted && level_ < max_level) ++level_;
   }
 
   static constexpr int max_level = 52;  // beyond it the position is no exact double

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "engine/base/between.h"
 
@@ -14,20 +16,86 @@ namespace {
 constexpr double standing_still = 1e-6;
 constexpr double rounding = 1e-12;
 
-std::vector<double> bends_of(const Function& function, const Eigen::Vector3d& place, double begin, double end, int steps) {
-  const auto time = [&](int i) { return begin + (end - begin) * i / steps; };
-  Eigen::ArrayXd values(steps + 1);
-  for (int i = 0; i <= steps; ++i) values[i] = function(place, time(i));
-  const double still = std::max(standing_still * (values.maxCoeff() - values.minCoeff()), rounding * values.abs().maxCoeff());
-  const auto way = [&](int i) {
-    const double rise = values[i + 1] - values[i];
-    return std::abs(rise) <= still ? 0 : (rise > 0 ? 1 : -1);
-  };
-  std::vector<double> bends;
-  for (int i = 1; i < steps; ++i) {
-    if (way(i) != way(i - 1)) bends.push_back(time(i));
+// What rises by less than this share of the range from one look to the next is not asked whether it jumps; a jump is nearly
+// all of that rise.
+constexpr double least_jump = 0.01;
+constexpr double nearly_all = 0.9;
+// Roundings that a jump's two times are set apart by: the times of steps beside it are sums.
+constexpr double apart = 16 * std::numeric_limits<double>::epsilon();
+
+// A function at one place, looked at in equal steps in time.
+class Looks {
+ public:
+  Looks(const Function& function, Eigen::Vector3d place, double begin, double end, int steps)
+      : function_(function), place_(std::move(place)), begin_(begin), end_(end), steps_(steps), values_(steps + 1) {
+    for (int i = 0; i <= steps; ++i) values_[i] = function_(place_, time(i));
   }
-  return bends;
+
+  // Where it begins or ends to rise, to fall or to stand still, but for the jumps that are in steps beside.
+  [[nodiscard]] std::vector<double> bends(const std::vector<Jump>& jumps) const {
+    const double still = std::max(standing_still * range(), rounding * values_.abs().maxCoeff());
+    const auto way = [&](int i) {
+      const double rise = values_[i + 1] - values_[i];
+      return std::abs(rise) <= still ? 0 : (rise > 0 ? 1 : -1);
+    };
+    const auto leaps = [&](int i) {
+      return std::any_of(jumps.begin(), jumps.end(),
+                         [&](const Jump& jump) { return jump.before < time(i + 1) && jump.after > time(i); });
+    };
+    std::vector<double> bends;
+    for (int i = 1; i < steps_; ++i) {
+      if (way(i) != way(i - 1) && !leaps(i) && !leaps(i - 1)) bends.push_back(time(i));
+    }
+    return bends;
+  }
+
+  [[nodiscard]] std::vector<Jump> jumps() const {
+    std::vector<Jump> jumps;
+    for (int i = 0; i < steps_; ++i) {
+      if (std::abs(values_[i + 1] - values_[i]) <= least_jump * range()) continue;
+      if (const std::optional<Jump> jump = jump_after(i)) jumps.push_back(*jump);
+    }
+    return jumps;
+  }
+
+ private:
+  [[nodiscard]] double time(int i) const { return i == steps_ ? end_ : begin_ + (end_ - begin_) * i / steps_; }
+  [[nodiscard]] double range() const { return values_.maxCoeff() - values_.minCoeff(); }
+
+  // Between a look and the next, by halving: nothing if the rise is shared by both halves.
+  [[nodiscard]] std::optional<Jump> jump_after(int i) const {
+    double low = time(i), high = time(i + 1);
+    double under = values_[i], over = values_[i + 1];
+    const double least = nearly_all * std::abs(over - under);
+    for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
+      const double value = function_(place_, middle);
+      const bool below = std::abs(value - under) > std::abs(over - value);
+      (below ? high : low) = middle;
+      (below ? over : under) = value;
+      if (!(std::abs(over - under) >= least)) return std::nullopt;
+    }
+    return Jump{std::max(begin_, low - apart * std::abs(low)), std::min(end_, high + apart * std::abs(high))};
+  }
+
+  const Function& function_;
+  Eigen::Vector3d place_;
+  double begin_, end_;  // [s]
+  int steps_;
+  Eigen::ArrayXd values_;
+};
+
+// In ascending order; those of several functions at one time are one.
+std::vector<Jump> merged(std::vector<Jump> jumps) {
+  std::sort(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) { return a.before < b.before; });
+  std::vector<Jump> merged;
+  for (const Jump& jump : jumps) {
+    if (!merged.empty() && jump.before <= merged.back().after) {
+      merged.back().after = std::max(merged.back().after, jump.after);
+    } else {
+      merged.push_back(jump);
+    }
+  }
+  return merged;
 }
 
 Eigen::Matrix3Xd places_of_hold(const HeatModel& model, std::size_t hold) {
@@ -68,16 +136,20 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
       return;
     }
     if (!function.varies_in_place()) {
-      seen_.push_back({(end - begin) / steps_of_one, bends_of(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one)});
+      const Looks looks(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one);
+      const std::vector<Jump> jumps = model.shared_capacity ? std::vector<Jump>() : looks.jumps();
+      seen_.push_back({(end - begin) / steps_of_one, looks.bends(jumps)});
+      jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
       return;
     }
     const Eigen::Matrix3Xd places = places_of();
     const Eigen::Index count = std::min(places.cols(), most_places);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Vector3d place = places.col(i * places.cols() / count);
-      seen_.push_back({(end - begin) / steps_of_many, bends_of(function, place, begin, end, steps_of_many)});
+      seen_.push_back({(end - begin) / steps_of_many, Looks(function, place, begin, end, steps_of_many).bends({})});
     }
   });
+  jumps_ = merged(std::move(jumps_));
 }
 
 std::size_t TimeBends::most_between(double begin, double end) const {

@@ -1,17 +1,28 @@
-// Where what drives a run bends in time, so that no step leaps over a pulse.
+// Where what drives a run jumps and bends in time, so that steps end at jumps and none leaps over a pulse.
 #pragma once
 
 #include "thermal/heat_model.h"
 
 namespace scree::thermal {
 
+// Times just before and just after a jump, a few roundings apart [s].
+struct Jump {
+  double before;
+  double after;
+};
+
 // Between two times, as a rule those of two outputs. A table is known. A formula is looked at, at 1,024 steps in time of one
 // that is the same everywhere, else at 64 steps at up to 16 of its places; it bends where it begins or ends to rise, to fall
-// or to stand still. Throws InputError for a value that breaks its rule there.
+// or to stand still. A formula that is the same everywhere and jumps by a hundredth of its range or more from one look to the
+// next does so at a time that is known. In fourth order a jump reaches nodes beside those that are held: there it is two bends.
+// Throws InputError for a value that breaks its rule there.
 class TimeBends {
  public:
   // Refers to the model.
   TimeBends(const HeatModel& model, double begin, double end);
+
+  // Ascending, from `begin` to `end`.
+  [[nodiscard]] const std::vector<Jump>& jumps() const { return jumps_; }
 
   // The most bends that a condition or a load has at one place, without those at the two times.
   [[nodiscard]] std::size_t most_between(double begin, double end) const;
@@ -28,6 +39,7 @@ class TimeBends {
 
   std::vector<const Function*> tables_;
   std::vector<Seen> seen_;
+  std::vector<Jump> jumps_;
 };
 
 }  // namespace scree::thermal

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
 
@@ -67,16 +68,29 @@ TEST(ChangingDrives, APulseInAFormulaIsNotLeaptOver) {
   }
 }
 
-// An insulated block keeps every error that its steps make, so that the estimate must be that of the heat that came in.
+// What depends on place, too, is looked at here and there: its jumps are not known, and lie within steps.
+std::string with_place(const std::string& formula) {
+  return formula + " + 0*x";
+}
+
+// Of a block that keeps every error that its steps make.
+double error_of(const HeatState& state, double warming, double seconds) {
+  return std::abs(state.temperature[0] - 300 - warming * seconds);
+}
+
+double warming_by(double power) {
+  const Material rock = rock_only()[MaterialId{0}];
+  return power / (*rock.density * (*rock.specific_heat)(300));  // [K/s]
+}
+
+// The estimate must be that of the heat that came in.
 TEST(ChangingDrives, TheErrorOfLoadsThatJumpWithinStepsIsEstimatedAndBounded) {
   const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
-  const Material rock = rock_only()[MaterialId{0}];
   const double power = 1e6;
-  const double warming = power / (*rock.density * (*rock.specific_heat)(300));  // [K/s]
   const auto off = [&](const Function& source, double seconds) {
     for (const Integrator integrator : integrators) {
       const HeatState state = after_an_hour_of(source, integrator);
-      const double error = std::abs(state.temperature[0] - 300 - warming * seconds);
+      const double error = error_of(state, warming_by(power), seconds);
       EXPECT_LT(error, 0.1);
       EXPECT_LE(error, 1.1 * state.time_error);
       EXPECT_LT(state.time_error, 0.1);
@@ -84,8 +98,9 @@ TEST(ChangingDrives, TheErrorOfLoadsThatJumpWithinStepsIsEstimatedAndBounded) {
   };
   for (const double begin : {10.03, 333.77, 1799.0, 2718.28}) {
     for (const double length : {12.3, 37.52, 777.7}) {
-      off(Function::from_expression(fmt::format("{}*(t > {})*(t < {})", power, begin, begin + length), unit, ValueRule{}),
-          length);
+      const std::string pulse = fmt::format("{}*(t > {})*(t < {})", power, begin, begin + length);
+      const bool seen = length > 3600.0 / 64;
+      if (seen) off(Function::from_expression(with_place(pulse), unit, ValueRule{}), length);
       const double ramp = 0.002;
       off(Function::from_table(
               LinearTable({0, begin - ramp, begin, begin + length - ramp, begin + length, 3600}, {0, 0, power, power, 0, 0}),
@@ -93,7 +108,28 @@ TEST(ChangingDrives, TheErrorOfLoadsThatJumpWithinStepsIsEstimatedAndBounded) {
           length);
     }
   }
-  off(Function::from_expression(fmt::format("{}*(sin(2*pi*t/90) > 0)", power), unit, ValueRule{}), 1800);
+  off(Function::from_expression(with_place(fmt::format("{}*(sin(2*pi*t/90) > 0)", power)), unit, ValueRule{}), 1800);
+}
+
+// Steps end at jumps that are known, so that nothing is missed.
+TEST(ChangingDrives, HeatThatComesAndGoesAtOnceIsSummedToRounding) {
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
+  const double power = 1e6;
+  for (const Integrator integrator : integrators) {
+    const auto expect_exact = [&](const std::string& formula, double seconds) {
+      const HeatState state = after_an_hour_of(Function::from_expression(formula, unit, ValueRule{}), integrator);
+      EXPECT_LT(error_of(state, warming_by(power), seconds), 1e-9) << formula;
+      EXPECT_LT(state.time_error, 1e-9) << formula;
+      EXPECT_LT(state.ledger.relative_residual(), 1e-12) << formula;
+    };
+    for (const double begin : {10.03, 333.77, 1799.0, 2718.28}) {
+      for (const double length : {12.3, 37.52, 777.7}) {
+        expect_exact(fmt::format("{}*(t > {})*(t <= {})", power, begin, begin + length), length);
+      }
+    }
+    expect_exact(fmt::format("{}*(sin(2*pi*t/90) > 0)", power), 1800);
+    expect_exact(fmt::format("t < 1234.5 ? {0} : (t < 2345.6 ? -{0} : 0)", power), 1234.5 - 1111.1);
+  }
 }
 
 TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBounded) {
@@ -101,12 +137,12 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
   const auto mesh = slab_mesh<2>({bar<2>(0.01, 1, 1, 0.01)});
   Table<MaterialId, Material> materials = rock_only();
   materials[MaterialId{0}].conductivity = 1e5;
-  for (const double begin : {10.03, 333.77, 1799.0, 2718.28}) {
+  const auto expect_bounded = [&](const std::string& temperature, double begin) {
     HeatOptions options = options_for(mesh, 300);
     Boundary air;
     air.name = "air";
     air.region = test::on(BodyId{0}, std::nullopt);
-    air.condition = Convection{0.5, Function::from_expression(fmt::format("300 + 200*(t > {})", begin), unit, ValueRule{})};
+    air.condition = Convection{0.5, Function::from_expression(temperature, unit, ValueRule{})};
     options.boundaries.push_back(air);
     const HeatModel model = make_heat_model(mesh, materials, contact::ContactSet<2>{}, options);
     const double rate = 0.5 * 0.04 / model.capacity.sum();  // of the whole, which is of one temperature
@@ -117,14 +153,19 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
         const double exact = time < begin ? 300 : 500 - 200 * std::exp(-rate * (time - begin));
         largest = std::max(largest, std::abs(run.state().temperature.mean() - exact));
       });
-      EXPECT_LT(largest, 0.1) << begin;
-      EXPECT_LE(largest, 1.1 * run.state().time_error) << begin;
+      EXPECT_LT(largest, 0.1) << temperature;
+      EXPECT_LE(largest, 1.1 * run.state().time_error) << temperature;
     }
+  };
+  for (const double begin : {10.03, 333.77, 1799.0, 2718.28}) {
+    const std::string jump = fmt::format("300 + 200*(t > {})", begin);
+    expect_bounded(jump, begin);
+    expect_bounded(with_place(jump), begin);
   }
 }
 
-// One of two bars that is held where they touch, from 300 K on; beside a run with a hundredth of the tolerance.
-void expect_estimated(const std::string& held, double beta, Integrator integrator) {
+// One of two bars is held where they touch, from 300 K on.
+HeatModel held_pair(const std::string& held, double beta, const Curve& specific_heat = 800.0) {
   const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
   auto right = bar<2>(0.2, 4, 1, 0.05);
   right.low[0] = 0.2;
@@ -134,7 +175,14 @@ void expect_estimated(const std::string& held, double beta, Integrator integrato
   Boundary end = test::hold(BodyId{0}, 0.2, 0, "end");
   end.condition = FixedTemperature{Function::from_expression(held, unit, ValueRule{})};
   options.boundaries.push_back(end);
-  const HeatModel model = make_heat_model(mesh, rock_only(), test::matching_contacts(mesh), options);
+  Table<MaterialId, Material> materials = rock_only();
+  materials[MaterialId{0}].specific_heat = specific_heat;
+  return make_heat_model(mesh, materials, test::matching_contacts(mesh), options);
+}
+
+// Beside a run with a hundredth of the tolerance.
+void expect_estimated(const std::string& held, double beta, Integrator integrator) {
+  const HeatModel model = held_pair(held, beta);
   const auto after_an_hour = [&](Integrator by, double tolerance) {
     TimeOptions time = an_hour(by);
     time.tolerance = tolerance;
@@ -154,9 +202,53 @@ TEST(ChangingDrives, TheErrorOfHeldTemperaturesThatJumpOrBendWithinStepsIsEstima
   for (const double begin : {10.03, 333.77, 1001.1, 2222.2, 2718.28, 3300.5}) {
     for (const std::string& held :
          {fmt::format("300 + 50*(t > {})", begin), fmt::format("300 + (t > {0} ? 0.02*(t - {0}) : 0)", begin)}) {
-      for (const double beta : {0.1, 1e3, 1e9}) expect_estimated(held, beta, Integrator::implicit);
-      for (const double beta : {0.1, 1e3}) expect_estimated(held, beta, Integrator::stabilised_explicit);
+      for (const std::string& formula : {held, with_place(held)}) {
+        for (const double beta : {0.1, 1e3, 1e9}) expect_estimated(formula, beta, Integrator::implicit);
+        for (const double beta : {0.1, 1e3}) expect_estimated(formula, beta, Integrator::stabilised_explicit);
+      }
     }
+  }
+}
+
+// At an output, whichever side of it the formula counts it to.
+TEST(ChangingDrives, WhatFollowsAJumpAtAnOutputIsWhatFollowsASuddenStart) {
+  for (const Integrator integrator : integrators) {
+    for (const Curve& specific_heat : {Curve(800.0), Curve::from_table(LinearTable({200, 500}, {700, 1000}))}) {
+      const auto state_after = [&](const std::string& held, double until) {
+        TimeOptions time = an_hour(integrator);
+        time.output_every = 600;
+        HeatRun run(held_pair(held, 10, specific_heat), time);
+        run.advance_to(until);
+        EXPECT_LT(run.state().ledger.relative_residual(), 1e-12) << held;
+        return run.state();
+      };
+      const HeatState start = state_after("350", 1800);
+      const double given = start.ledger.start_jump + start.ledger.by_boundary[0];
+      for (const std::string held : {"t < 1800 ? 300 : 350", "t <= 1800 ? 300 : 350"}) {
+        const HeatState state = state_after(held, 3600);
+        EXPECT_LT((state.temperature - start.temperature).lpNorm<Eigen::Infinity>(), 1e-9) << held;
+        EXPECT_NEAR(state.ledger.by_boundary[0] / given, 1, 1e-9) << held;
+        EXPECT_EQ(state.steps, start.steps + 3) << held << ": one for each interval before";
+      }
+    }
+  }
+}
+
+TEST(ChangingDrives, ARunGoesOnFromAJumpToTheBit) {
+  const auto file = scree::test::temp_folder() / "jump.h5";
+  for (const std::string held : {"t < 1200 ? 300 : 350", "t <= 1200 ? 300 : 350", "t < 1300 ? 300 : 350"}) {
+    TimeOptions time = an_hour(Integrator::implicit);
+    time.output_every = 600;
+    const HeatModel model = held_pair(held, 10);
+    HeatRun whole(model, time);
+    whole.advance_to(1200);
+    write(whole.state(), "key", file);
+    whole.advance_to(3600);
+    HeatRun resumed(model, time, read_state(file, "key"));
+    resumed.advance_to(3600);
+    EXPECT_EQ(resumed.state().temperature, whole.state().temperature) << held;
+    EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual()) << held;
+    EXPECT_EQ(resumed.state().steps, whole.state().steps) << held;
   }
 }
 
