@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "thermal/evaluated.h"
 #include "thermal/exchange.h"
 #include "thermal/problems.h"
 
@@ -29,42 +29,23 @@ constexpr Range kelvin{0, infinity, "must be a temperature of 0 K or more"};
 constexpr Range coefficient_range{0, infinity, "must not be negative, W/m2/K"};
 constexpr Range emissivity_range{0, 1, "must be from 0 to 1"};
 
-// A function at places, checked; worked out once where it is the same everywhere.
-class Evaluator {
- public:
-  // Refers to all of them.
-  Evaluator(const Function& function, double time, const std::string& name, const Range& range)
-      : function_(function), varies_in_place_(function.varies_in_place()), time_(time), name_(name), range_(range) {}
-
-  double operator()(const Eigen::Vector3d& place) {
-    if (varies_in_place_) return at(place);
-    if (!everywhere_) everywhere_ = at(place);
-    return *everywhere_;
-  }
-
- private:
-  [[nodiscard]] double at(const Eigen::Vector3d& place) const {
-    const double value = function_(place, time_);
-    if (std::isfinite(value) && value >= range_.least && value <= range_.largest) return value;
+// A function at one time, checked. Refers to all of them.
+auto evaluated(const Function& function, double time, const std::string& name, const Range& range) {
+  return Evaluated(function.varies_in_place(), [&function, time, &name, &range](const Eigen::Vector3d& place) {
+    const double value = function(place, time);
+    if (std::isfinite(value) && value >= range.least && value <= range.largest) return value;
     throw InputError(problem(
-        "heat: " + name_, fmt::format("{:g} at ({:g}, {:g}, {:g}) m and {:g} s", value, place.x(), place.y(), place.z(), time_),
-        range_.rule, "Look at its expression or table there"));
-  }
-
-  const Function& function_;
-  bool varies_in_place_;
-  double time_;
-  const std::string& name_;
-  const Range& range_;
-  std::optional<double> everywhere_;
-};
+        "heat: " + name, fmt::format("{:g} at ({:g}, {:g}, {:g}) m and {:g} s", value, place.x(), place.y(), place.z(), time),
+        range.rule, "Look at its expression or table there"));
+  });
+}
 
 ExchangeRates rates(const Exchange& exchange, double time) {
   const std::size_t count = exchange.on.nodes.size();
   ExchangeRates result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
   const bool radiates = exchange.law == Exchange::Law::radiation;
-  Evaluator coefficient(exchange.coefficient, time, exchange.name, radiates ? emissivity_range : coefficient_range);
-  Evaluator surroundings(exchange.surroundings, time, exchange.name, kelvin);
+  auto coefficient = evaluated(exchange.coefficient, time, exchange.name, radiates ? emissivity_range : coefficient_range);
+  auto surroundings = evaluated(exchange.surroundings, time, exchange.name, kelvin);
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::Vector3d place = exchange.on.places.col(row);
@@ -106,8 +87,8 @@ Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(mod
 
 void Drives::evaluate(Part part, Drive& drive) const {
   const bool varying = part == Part::varying;
-  std::vector<Evaluator> temperatures;
-  for (const Hold& hold : model_.holds) temperatures.emplace_back(hold.temperature, drive.time, hold.name, kelvin);
+  std::vector<decltype(evaluated({}, 0, {}, kelvin))> temperatures;
+  for (const Hold& hold : model_.holds) temperatures.push_back(evaluated(hold.temperature, drive.time, hold.name, kelvin));
   for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
     const int hold = model_.fixed_hold[i];
     if (varies_in_time(model_.holds[hold]) != varying) continue;
@@ -116,7 +97,7 @@ void Drives::evaluate(Part part, Drive& drive) const {
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
     if (varies_in_time(load) != varying) continue;
-    Evaluator density(load.density, drive.time, load.name, any_value);
+    auto density = evaluated(load.density, drive.time, load.name, any_value);
     for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
       const double heat = load.on.shares[i] * density(load.on.places.col(static_cast<Eigen::Index>(i)));
       drive.load[load.on.nodes[i].value()] += heat;

@@ -1,8 +1,8 @@
 #include "thermal/drive_defect.h"
 
 #include <cmath>
-#include <optional>
 
+#include "thermal/evaluated.h"
 #include "thermal/exchange.h"
 
 namespace scree::thermal {
@@ -33,13 +33,13 @@ class Defect {
   double length_;
 };
 
-// value(place) at each node, evaluated once where it is the same everywhere.
+// value(place) at each node.
 template <class Value>
 Eigen::VectorXd at_nodes(const NodeShares& on, bool varies_in_place, const Value& value) {
-  const auto count = static_cast<Eigen::Index>(on.nodes.size());
-  if (count == 0) return {};
-  if (!varies_in_place) return Eigen::VectorXd::Constant(count, value(Eigen::Vector3d(on.places.col(0))));
-  return Eigen::VectorXd::NullaryExpr(count, [&](Eigen::Index i) { return value(Eigen::Vector3d(on.places.col(i))); });
+  Evaluated evaluated(varies_in_place, value);
+  Eigen::VectorXd values(static_cast<Eigen::Index>(on.nodes.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = evaluated(on.places.col(i));
+  return values;
 }
 
 void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
@@ -54,17 +54,18 @@ void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
 
 // By how much more held temperatures count, in the order of the fixed nodes [K s].
 Eigen::VectorXd missed_of_held(const HeatModel& model, const Defect& defect) {
-  std::vector<std::optional<double>> everywhere(model.holds.size());  // of those that are the same at all their places
+  const auto missed_by = [&](const Hold& hold) {
+    return Evaluated(hold.temperature.varies_in_place(), [&](const Eigen::Vector3d& place) {
+      return defect([&](double time) { return hold.temperature(place, time); });
+    });
+  };
+  std::vector<decltype(missed_by(model.holds.front()))> of_holds;
+  for (const Hold& hold : model.holds) of_holds.push_back(missed_by(hold));
   Eigen::VectorXd missed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.fixed_nodes.size()));
   for (std::size_t i = 0; i < model.fixed_nodes.size(); ++i) {
-    const Hold& hold = model.holds[model.fixed_hold[i]];
-    if (!varies_in_time(hold)) continue;
-    std::optional<double>& known = everywhere[model.fixed_hold[i]];
-    const Eigen::Vector3d place = model.places.col(model.fixed_nodes[i].value());
-    if (!known || hold.temperature.varies_in_place()) {
-      known = defect([&](double time) { return hold.temperature(place, time); });
-    }
-    missed[static_cast<Eigen::Index>(i)] = *known;
+    const int hold = model.fixed_hold[i];
+    if (!varies_in_time(model.holds[hold])) continue;
+    missed[static_cast<Eigen::Index>(i)] = of_holds[hold](model.places.col(model.fixed_nodes[i].value()));
   }
   return missed;
 }
