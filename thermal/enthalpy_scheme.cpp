@@ -54,7 +54,7 @@ class EnthalpyScheme : public TimeScheme {
     heats.start = scale_ * free_.gather(balance_.heating(from.temperature, drives_.at(from.time)));
     heats.first = heat1;
     heats.last = free_.gather(balance_.stored(from.temperature, last.temperature)) - from_first * heat1;
-    const Eigen::VectorXd carried = carry(from.error, heats);
+    const Eigen::VectorXd carried = carry(from, first, last, heats);
     const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
     const Eigen::VectorXd local =
         local_error(heats, capacity, [this](const Eigen::VectorXd& heat) { return solver_.estimate(heat); });
@@ -151,17 +151,20 @@ class EnthalpyScheme : public TimeScheme {
     return false;
   }
 
-  // How the error changes over the step, and what that takes off the companion's heats.
-  Eigen::VectorXd carry(const Eigen::VectorXd& error, StageHeats& heats) {
-    const Eigen::VectorXd capacity = free_.gather(linear_.capacity);
-    const Eigen::VectorXd start = -scale_ * free_.gather(balance_.lost(error, linear_));
-    const Eigen::VectorXd d1 = solver_.estimate(start);
-    const Eigen::VectorXd first = capacity.cwiseProduct(d1);
-    const Eigen::VectorXd d2 = solver_.estimate(first);
+  // How the error changes over the step, and what that takes off the companion's heats. An error keeps its heat, not its
+  // temperature, where c changes.
+  Eigen::VectorXd carry(const Instant& from, const Stage& first, const Stage& last, StageHeats& heats) {
+    const auto capacity = [&](const Eigen::VectorXd& at) { return free_.gather(capacity_at(model_, at)); };
+    const Eigen::VectorXd c0 = capacity(from.temperature), c1 = capacity(first.temperature), c2 = capacity(last.temperature);
+    const Eigen::VectorXd e0 = free_.gather(from.error);
+    const Eigen::VectorXd start = -scale_ * free_.gather(balance_.lost(from.error, linear_));
+    const Eigen::VectorXd e1 = e0 + solver_.estimate(start + (c0 - c1).cwiseProduct(e0));
+    const Eigen::VectorXd heat1 = c1.cwiseProduct(e1) - c0.cwiseProduct(e0);
+    const Eigen::VectorXd e2 = e0 + solver_.estimate(start + (c0 - c2).cwiseProduct(e0) + from_first * heat1);
     heats.start -= start;
-    heats.first -= first;
-    heats.last -= from_first * (capacity.cwiseProduct(d2) - first) + first;
-    return d1 + from_first * d2;
+    heats.first -= heat1;
+    heats.last -= c2.cwiseProduct(e2) - c0.cwiseProduct(e0) - from_first * heat1;
+    return e2 - e0;
   }
 
   const HeatModel& model_;

@@ -22,9 +22,12 @@ namespace {
 // Step control. A step may add this share of the room left below the tolerance, so that the sum stays below it however many
 // steps there are: modes that still change forget old errors as they decay, which gives room back (README, "Time").
 constexpr double share_of_room = 0.4;
-// Room never counts as less than this share of the tolerance: errors that do not decay must not stop the run. It then ends
-// above its tolerance and says so.
-constexpr double least_room = 0.05;
+// Where there is hardly any room a step may add its share, by time, of what is left to the tolerance: errors that do not decay
+// are spread over the whole run. But no more than the larger and no less than the smaller of these shares of the tolerance,
+// lest they stop the run: it may end above its tolerance then, and says so. What a step misses of a jump is in proportion to
+// its length, so that no step is short enough for its share by time: there it is the larger one.
+constexpr double most_spread = 0.02;
+constexpr double least_spread = 4e-4;
 // What the step control aims at, of the tolerance.
 constexpr double aim = 0.9;
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
@@ -148,7 +151,9 @@ class HeatRun::Implementation {
   }
 
   void smooth_steps(double begin, double length, const TimeBends& bends, const std::function<void(double)>& progress) {
-    if (state_.next_step <= 0) state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error));
+    if (state_.next_step <= 0) {
+      state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error, begin, length));
+    }
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
       if (leaps(grid, bends)) {
@@ -158,25 +163,26 @@ class HeatRun::Implementation {
       const double dt = grid.step();
       const std::optional<DriveDefect> missed = missed_in(grid, bends);
       const bool finest = grid.level() == StepGrid::max_level;
-      if (missed && largest(missed->free) > allowed(state_.error) && !finest) {
+      const double may_add = allowed_in(missed, grid);
+      if (missed && largest(missed->free) > may_add && !finest) {
         grid.refine();
         continue;
       }
       Step step = missed ? step_that_misses(*missed, grid) : scheme_.scheme->step(instant(grid.time()), dt);
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
-      if (!(step.local_error <= allowed(state_.error))) {
-        refine(grid, step.local_error / allowed(state_.error));
+      if (!(step.local_error <= may_add)) {
+        refine(grid, step.local_error / may_add);
         continue;
       }
-      if (missed && largest(step.error) - largest(state_.error) > allowed(state_.error) && !finest) {
+      if (missed && largest(step.error) - largest(state_.error) > may_add && !finest) {
         ++state_.rejected_steps;
         grid.refine();
         continue;
       }
       grid.advance();
-      const double limit = growth_margin * allowed(step.error);
       state_.next_step = dt;
-      for (double expected = 8 * step.local_error; expected <= limit && state_.next_step < 4 * dt; expected *= 8) {
+      for (double expected = 8 * step.local_error; state_.next_step < 4 * dt; expected *= 8) {
+        if (expected > growth_margin * allowed(step.error, grid.time(), 2 * state_.next_step)) break;
         // At the interval's end the next one's grid begins, whose steps may be longer.
         if (!grid.done() && !grid.coarsen()) break;
         state_.next_step *= 2;
@@ -234,9 +240,20 @@ class HeatRun::Implementation {
   }
 
   // How much error a step may add [K].
-  [[nodiscard]] double allowed(const Eigen::VectorXd& error) const {
-    const double room = aim * options_.tolerance / scheme_.scheme->safety() - largest(error);
-    return share_of_room * std::max(room, least_room * options_.tolerance);
+  [[nodiscard]] double allowed(const Eigen::VectorXd& error, double time, double length) const {
+    const double left = options_.tolerance / scheme_.scheme->safety() - largest(error);
+    const double spread = left * length / std::max(options_.until - time, length);
+    return std::max(share_of_what_is_aimed_at(error),
+                    std::clamp(spread, least_spread * options_.tolerance, most_spread * options_.tolerance));
+  }
+  // By the step that the grid is at.
+  [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid) const {
+    const double smooth = allowed(state_.error, grid.time(), grid.step());
+    const bool jumps = missed && std::max(largest(missed->free), largest(missed->held)) > smooth;
+    return jumps ? std::max(smooth, most_spread * options_.tolerance) : smooth;
+  }
+  [[nodiscard]] double share_of_what_is_aimed_at(const Eigen::VectorXd& error) const {
+    return share_of_room * (aim * options_.tolerance / scheme_.scheme->safety() - largest(error));
   }
 
   [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }

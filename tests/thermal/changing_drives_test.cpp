@@ -164,6 +164,36 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
   }
 }
 
+// What its steps are off by stays; as c rises from 200 to 400 K and falls to 500 K it even grows.
+TEST(ChangingDrives, AnInsulatedBodyKeepsItsToleranceHoweverLongItIsHeated) {
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
+  const auto mesh = slab_mesh<2>({bar<2>(0.1, 4, 1, 0.05)});
+  Table<MaterialId, Material> materials = rock_only();
+  materials[MaterialId{0}].specific_heat = Curve::from_table(LinearTable({200, 400, 500}, {600, 1000, 700}));
+  for (const std::string formula : {"2e4*(1 + sin(t/700))", "2e4*(1 + sin(t/700))*(1 + 5*x)"}) {
+    HeatOptions options = options_for(mesh, 300);
+    options.sources.push_back({test::on(BodyId{0}, std::nullopt), Function::from_expression(formula, unit, {}), "source", {}});
+    const HeatModel model = make_heat_model(mesh, materials, contact::ContactSet<2>{}, options);
+    const auto after_ten_hours = [&](Integrator integrator, double tolerance) {
+      TimeOptions time = an_hour(integrator);
+      time.until = 36000;
+      time.output_every = 1800;
+      time.tolerance = tolerance;
+      HeatRun run(model, time);
+      run.advance_to(time.until);
+      return run.state();
+    };
+    const HeatState exact = after_ten_hours(Integrator::implicit, 1e-3);
+    for (const Integrator integrator : integrators) {
+      const HeatState state = after_ten_hours(integrator, 0.02);
+      EXPECT_LE(state.time_error, 0.02) << formula;
+      EXPECT_LE((state.temperature - exact.temperature).lpNorm<Eigen::Infinity>(), state.time_error + exact.time_error)
+          << formula;
+      EXPECT_LT(state.steps, 3000) << formula;
+    }
+  }
+}
+
 // One of two bars is held where they touch, from 300 K on.
 HeatModel held_pair(const std::string& held, double beta, const Curve& specific_heat = 800.0) {
   const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
