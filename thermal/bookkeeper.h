@@ -22,12 +22,12 @@ class Bookkeeper {
   void book(const Step& step, const Eigen::VectorXd& before, double length, Ledger& ledger);
 
  private:
-  const HeatModel& model_;
-  Drives drives_;
   // Into the fixed nodes, one entry each [J].
   void give(const Eigen::VectorXd& held, Ledger& ledger) const;
   [[nodiscard]] Eigen::VectorXd stored_in_fixed(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
 
+  const HeatModel& model_;
+  Drives drives_;
   HeatBalance balance_;
   std::optional<HeldShares> shares_;  // in fourth order
 };

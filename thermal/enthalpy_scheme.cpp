@@ -98,8 +98,6 @@ class EnthalpyScheme : public TimeScheme {
     solver_.prepare(linear_, scale_);
     diagonal_ = linear_.capacity + scale_ * (conductance_ + linear_.loss);
     if (unit_conductance_.size() > 0) diagonal_ += scale_ * unit_conductance_.cwiseProduct(linear_.conductivity);
-    const Eigen::VectorXd all = free_.scatter(Eigen::VectorXd::Ones(free_.size()));
-    all_together_ = free_.gather(linear_.capacity + scale_ * balance_.lost(all, linear_)).sum();
   }
 
   // The residual that rounding leaves [J]: a temperature is off by a quarter of a unit in its last place on average, of which
@@ -108,6 +106,13 @@ class EnthalpyScheme : public TimeScheme {
   [[nodiscard]] double left_by_rounding(const Eigen::VectorXd& temperature) const {
     constexpr double quarter_of_a_unit = 0.25 * std::numeric_limits<double>::epsilon();
     return quarter_of_a_unit * free_.gather(diagonal_.cwiseProduct(temperature.cwiseAbs())).sum();
+  }
+
+  // By which all free nodes alike take up so much heat [K].
+  [[nodiscard]] Eigen::VectorXd change_of_all(double heat) const {
+    const Eigen::VectorXd all = free_.scatter(Eigen::VectorXd::Ones(free_.size()));
+    const double taken = free_.gather(linear_.capacity + scale_ * balance_.lost(all, linear_)).sum();  // [J/K]
+    return heat / taken * all;
   }
 
   // A matrix that is 2 % off costs an iteration or two a stage, a new factor as much as ten to fifty of them; the coarse levels
@@ -138,7 +143,7 @@ class EnthalpyScheme : public TimeScheme {
       const bool rounded = left <= near_rounding * left_by_rounding(stage.temperature);
       if (rounded && (sum <= enough || evened)) return true;
       if (rounded && sum > least_gain * sum_before) {
-        stage.temperature += free_.scatter(Eigen::VectorXd::Constant(free_.size(), residual.sum() / all_together_));
+        stage.temperature += change_of_all(residual.sum());
         evened = true;
         continue;
       }
@@ -175,7 +180,6 @@ class EnthalpyScheme : public TimeScheme {
   Eigen::VectorXd conductance_;       // K_ii [W/K]
   Eigen::VectorXd unit_conductance_;  // U_ii; empty without U [m]
   Eigen::VectorXd diagonal_;          // of M [J/K]
-  double all_together_ = 0;           // heat that warms all free nodes alike [J/K]
   Linearised linear_;                 // what the solver is prepared for
   MatrixOrigin origin_;               // and where that is from
   double scale_ = 0;                  // gamma h of the step [s]

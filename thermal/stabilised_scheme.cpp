@@ -46,7 +46,7 @@ class WatchedMean {
     for (std::vector<double>& mean : means_) mean.assign(nodes.size(), 0.0);
   }
 
-  // Stage j of these rows, in the place of j - 2, from D of the one before.
+  // Stage j of these rows, in the place of j - 2, from x of the one before.
   void advance(int j, const Coefficients& with, const Columns& increment, int first, int rows) {
     const std::vector<double>& newer = means_[(j - 1) % 2];
     std::vector<double>& older = means_[j % 2];

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
+#include "tests/thermal/resumed.h"
 #include "thermal/heat_run.h"
 
 namespace scree::thermal {
@@ -265,20 +265,10 @@ TEST(ChangingDrives, WhatFollowsAJumpAtAnOutputIsWhatFollowsASuddenStart) {
 }
 
 TEST(ChangingDrives, ARunGoesOnFromAJumpToTheBit) {
-  const auto file = scree::test::temp_folder() / "jump.h5";
   for (const std::string held : {"t < 1200 ? 300 : 350", "t <= 1200 ? 300 : 350", "t < 1300 ? 300 : 350"}) {
     TimeOptions time = an_hour(Integrator::implicit);
     time.output_every = 600;
-    const HeatModel model = held_pair(held, 10);
-    HeatRun whole(model, time);
-    whole.advance_to(1200);
-    write(whole.state(), "key", file);
-    whole.advance_to(3600);
-    HeatRun resumed(model, time, read_state(file, "key"));
-    resumed.advance_to(3600);
-    EXPECT_EQ(resumed.state().temperature, whole.state().temperature) << held;
-    EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual()) << held;
-    EXPECT_EQ(resumed.state().steps, whole.state().steps) << held;
+    test::expect_resumed_to_the_bit(held_pair(held, 10), time, 1200, held);
   }
 }
 

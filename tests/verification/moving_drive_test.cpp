@@ -149,7 +149,7 @@ TEST(MovingDrive, AConditionThatIsSaidToChangeButStaysMakesNoDifference) {
 }
 
 TEST(MovingDrive, StepsGoOnFromAFileToTheBit) {
-  test::expect_resumed_to_the_bit(driven_pair(all_that_changes().back()), "moving.h5");
+  test::expect_stabilised_steps_resumed_to_the_bit(driven_pair(all_that_changes().back()), "moving drive");
 }
 
 TEST(MovingDrive, StabilisedStepsAreChosenWhereTheyCostLess) {

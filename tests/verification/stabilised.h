@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/temp_folder.h"
+#include "tests/thermal/resumed.h"
 #include "thermal/drive.h"
 #include "thermal/heat_run.h"
 #include "thermal/time_scheme.h"
@@ -68,21 +68,12 @@ inline void expect_equal_steps(const HeatModel& one, const HeatModel& other, dou
   }
 }
 
-inline void expect_resumed_to_the_bit(const HeatModel& model, const std::string& name) {
-  const auto file = scree::test::temp_folder() / name;
+inline void expect_stabilised_steps_resumed_to_the_bit(const HeatModel& model, const std::string& name) {
   TimeOptions time;
   time.integrator = Integrator::stabilised_explicit;
   time.until = 60;
   time.output_every = 20;
-  HeatRun whole(model, time);
-  whole.advance_to(20);
-  write(whole.state(), "key", file);
-  whole.advance_to(60);
-  HeatRun resumed(model, time, read_state(file, "key"));
-  resumed.advance_to(60);
-  EXPECT_EQ(resumed.state().temperature, whole.state().temperature);
-  EXPECT_EQ(resumed.state().error, whole.state().error);
-  EXPECT_EQ(resumed.state().ledger.residual(), whole.state().ledger.residual());
+  expect_resumed_to_the_bit(model, time, 20, name);
 }
 
 }  // namespace scree::thermal::test

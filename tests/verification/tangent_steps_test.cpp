@@ -101,7 +101,7 @@ TEST(TangentSteps, AreThoseOfConstantPropertiesWhereNothingBends) {
 }
 
 TEST(TangentSteps, GoOnFromAFileToTheBit) {
-  test::expect_resumed_to_the_bit(radiating_pair(rocks().back()), "tangent.h5");
+  test::expect_stabilised_steps_resumed_to_the_bit(radiating_pair(rocks().back()), "along the tangent");
 }
 
 TEST(TangentSteps, AreChosenWhereTheyCostLess) {

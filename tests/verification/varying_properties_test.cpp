@@ -43,14 +43,15 @@ TEST(VaryingProperties, ASteadyBarFollowsKirchhoffsTransformToRounding) {
   for (const Point<3>& q : flux) EXPECT_LT((q - Point<3>(phi(900) - phi(300), 0, 0)).norm(), 1e-7);
 }
 
+auto four_in_a_row(const test::Slab<3>& bar) {
+  std::vector<test::Slab<3>> bars(4, bar);
+  for (int i = 0; i < 4; ++i) bars[static_cast<std::size_t>(i)].low[0] = bar.size[0] * i;
+  return test::slab_mesh<3>(bars);
+}
+
 // The same with joints so stiff that they hardly count, and a conductivity that bends within an element.
 TEST(VaryingProperties, AConductivityThatFallsAHundredfoldWithinAKelvinIsSolvedForAcrossStiffJoints) {
-  std::vector<test::Slab<3>> bars;
-  for (int i = 0; i < 4; ++i) {
-    bars.push_back(test::bar<3>(0.25, 5, 2, 0.1));
-    bars.back().low[0] = 0.25 * i;
-  }
-  const auto mesh = test::slab_mesh<3>(bars);
+  const auto mesh = four_in_a_row(test::bar<3>(0.25, 5, 2, 0.1));
   HeatOptions options = test::options_for(mesh, 300);
   options.joint.law = StiffnessFactor{1e6};
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "hot"));
@@ -104,14 +105,9 @@ TEST(VaryingProperties, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
   }
 }
 
-// Four bars in a row, one end warm.
+// One end is warm.
 HeatModel warming_row(const Material& rock, double beta) {
-  std::vector<test::Slab<3>> bars;
-  for (int i = 0; i < 4; ++i) {
-    bars.push_back(test::bar<3>(0.05, 5, 3, 0.03));
-    bars.back().low[0] = 0.05 * i;
-  }
-  const auto mesh = test::slab_mesh<3>(bars);
+  const auto mesh = four_in_a_row(test::bar<3>(0.05, 5, 3, 0.03));
   HeatOptions options = test::options_for(mesh, 300);
   options.joint.law = StiffnessFactor{beta};
   options.boundaries.push_back(test::hold(BodyId{0}, 0, 310, "warm"));
