@@ -32,16 +32,16 @@ std::int64_t entries_of(const HeatModel& model) {
 class RunCosts {
  public:
   RunCosts(const HeatModel& model, const TimeOptions& options, double stable)
-      : options_(options),
+      : times_(step_times(options, varies_in_time(model))),
         stable_(stable),
         costs_{seconds_per_entry * static_cast<double>(entries_of(model)), use_of_steps(model), varies_in_time(model)} {}
 
-  [[nodiscard]] double products() const { return forecast_steps(stable_, options_).products; }
+  [[nodiscard]] double products() const { return forecast_steps(stable_, times_).products; }
   [[nodiscard]] double stabilised() const { return products() * costs_.product; }
-  [[nodiscard]] StepMix mixed(const SolverCost& solver) const { return cheapest_mix(stable_, options_, costs_, solver); }
+  [[nodiscard]] StepMix mixed(const SolverCost& solver) const { return cheapest_mix(stable_, times_, costs_, solver); }
 
  private:
-  const TimeOptions& options_;
+  StepTimes times_;
   double stable_;
   StepCosts costs_;
 };
@@ -61,7 +61,7 @@ bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCost
 }
 
 ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const std::string& why) {
-  const StepForecast forecast = forecast_steps(stable_step(model).step, options);
+  const StepForecast forecast = forecast_steps(stable_step(model).step, step_times(options, varies_in_time(model)));
   auto scheme = make_implicit_scheme(model, options.solver, use_of_steps(model)(forecast));
   const std::string of_solver = scheme->solver().why;
   return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};

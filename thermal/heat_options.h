@@ -106,7 +106,7 @@ struct TimeOptions {
   bool steady = false;      // the steady state itself; of the others only the solver has a use then
   double until = 0;         // [s]
   double tolerance = 0.1;   // largest accepted time error [K]
-  double output_every = 0;  // [s]; states are exact at its multiples
+  double output_every = 0;  // [s]; long steps pass its multiples
   Integrator integrator = Integrator::automatic;
   LinearSolver solver = LinearSolver::automatic;  // of the steady state, too
   std::optional<double> step;                     // explicit only; nothing: the largest stable one

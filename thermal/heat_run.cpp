@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "thermal/between_steps.h"
 #include "thermal/bookkeeper.h"
 #include "thermal/choose_scheme.h"
 #include "thermal/drive_defect.h"
+#include "thermal/error_budget.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/problems.h"
@@ -19,17 +21,9 @@ namespace scree::thermal {
 
 namespace {
 
-// Step control. A step may add this share of the room left below the tolerance, so that the sum stays below it however many
-// steps there are: modes that still change forget old errors as they decay, which gives room back (README, "Time").
-constexpr double share_of_room = 0.4;
-// Where there is hardly any room a step may add its share, by time, of what is left to the tolerance: errors that do not decay
-// are spread over the whole run. But no more than the larger and no less than the smaller of these shares of the tolerance,
-// lest they stop the run: it may end above its tolerance then, and says so. What a step misses of a jump is in proportion to
-// its length, so that no step is short enough for its share by time: there it is the larger one.
-constexpr double most_spread = 0.02;
-constexpr double least_spread = 4e-4;
-// What the step control aims at, of the tolerance.
-constexpr double aim = 0.9;
+// A step that passes outputs takes two intervals at least, and each is at most four times the one before: shorter ones than
+// this, of an output interval, are not among the four that it needs.
+constexpr double least_remembered = 0.125 * (1 - 1e-9);
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
@@ -60,10 +54,6 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
   return step;
 }
 
-double largest(const Eigen::VectorXd& error) {
-  return error.lpNorm<Eigen::Infinity>();
-}
-
 }  // namespace
 
 class HeatRun::Implementation {
@@ -73,6 +63,7 @@ class HeatRun::Implementation {
         model_(*kept_),
         options_(checked(options)),
         scheme_(choose_scheme(model_, options)),
+        budget_(options, scheme_.scheme->safety()),
         bookkeeper_(model_, scheme_.scheme->sums()),
         drives_(model_) {
     if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
@@ -98,35 +89,68 @@ class HeatRun::Implementation {
     scheme_.scheme->take_matrix(state_.matrix);
   }
 
-  void advance_to(double target, const std::function<void(double)>& progress) {
+  void advance_to(double target, const Progress& progress) {
     SCREE_EXPECT(target >= state_.time);
-    const double every = options_.output_every > 0 ? options_.output_every : std::max(options_.until, target);
-    while (state_.time < target) {
-      const double nearest = std::round(state_.time / every);
-      const bool at_output = std::abs(state_.time / every - nearest) <= on_grid;
-      const double begin = at_output ? nearest * every : state_.time;
-      const double next = (at_output ? nearest + 1 : std::ceil(state_.time / every)) * every;
-      const bool whole = target >= next - on_grid * every;
-      const double end = whole ? next : target;
-      // A whole interval has the same length each time, not that of a difference of rounded times.
-      const double length = at_output && whole ? every : end - begin;
-      if (options_.integrator == Integrator::explicit_euler) {
-        fixed_steps(begin, length, progress);
-      } else {
-        chosen_steps(begin, length, progress);
-      }
-      state_.time = std::abs(end - target) <= on_grid * every ? target : end;
+    while (state_.time < target) advance_within(target, progress);
+  }
+
+  void follow(const AtOutput& at_output, const Progress& progress) {
+    for (double output = next_output(options_, state_.time); state_.time < options_.until;) {
+      advance_within(options_.until, progress);
+      for (; output < state_.time; output = next_output(options_, output)) at_output(output, passed_at(output));
+      if (output != state_.time) continue;
+      at_output(output, state_.temperature);
+      output = next_output(options_, output);
     }
   }
 
   [[nodiscard]] const HeatState& state() const { return state_; }
-  [[nodiscard]] double cost_exponent() const { return scheme_.scheme->cost_exponent(); }
+  [[nodiscard]] WorkDone work_done() const {
+    return {step_times(options_, varies_in_time(model_)), scheme_.scheme->cost_exponent()};
+  }
   [[nodiscard]] std::string solver() const { return fmt::format("{} ({})", scheme_.scheme->name(), scheme_.why); }
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
  private:
+  static constexpr auto largest = ErrorBudget::largest;
+
+  // Over one interval between outputs, over several where steps are that long, or up to `limit`.
+  void advance_within(double limit, const Progress& progress) {
+    const double every = options_.output_every > 0 ? options_.output_every : std::max(options_.until, limit);
+    const double nearest = std::round(state_.time / every);
+    const bool at_output = std::abs(state_.time / every - nearest) <= on_grid;
+    const double begin = at_output ? nearest * every : state_.time;
+    const double count = at_output ? intervals_from(nearest, every, limit) : 1;
+    const double next = (at_output ? nearest + count : std::ceil(state_.time / every)) * every;
+    const bool whole = limit >= next - on_grid * every;
+    const double end = whole ? next : limit;
+    // A whole interval has the same length each time, not that of a difference of rounded times.
+    const double length = at_output && whole ? count * every : end - begin;
+    if (options_.integrator == Integrator::explicit_euler) {
+      fixed_steps(begin, length, progress);
+    } else {
+      chosen_steps(begin, length, progress);
+    }
+    state_.time = std::abs(end - limit) <= on_grid * every ? limit : end;
+  }
+
+  // As many as one step takes, in powers of two that begin at multiples of themselves; the temperatures are to be smooth from
+  // the first of the ends on that the cubic needs.
+  [[nodiscard]] double intervals_from(double nearest, double every, double limit) const {
+    double count = 1;
+    constexpr std::size_t earliest = BetweenSteps::ends_before - 2;
+    if (state_.earlier.size() <= earliest) return count;
+    const auto fits = [&](double more) {
+      return StepGrid(0, more * every, state_.next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
+             (nearest + more) * every <= limit + on_grid * every &&
+             TimeBends::surely_none(model_, state_.earlier[earliest].time, (nearest + more) * every);
+    };
+    while (fits(2 * count)) count *= 2;
+    return count;
+  }
+
   // Each stretch between two jumps has steps of its own, which know nothing of these.
-  void chosen_steps(double begin, double length, const std::function<void(double)>& progress) {
+  void chosen_steps(double begin, double length, const Progress& progress) {
     const double end = begin + length;
     const TimeBends bends(model_, begin, end);
     if (bends.jumps().empty()) return smooth_steps(begin, length, bends, progress);
@@ -150,9 +174,9 @@ class HeatRun::Implementation {
     state_.next_step = 0;
   }
 
-  void smooth_steps(double begin, double length, const TimeBends& bends, const std::function<void(double)>& progress) {
+  void smooth_steps(double begin, double length, const TimeBends& bends, const Progress& progress) {
     if (state_.next_step <= 0) {
-      state_.next_step = scheme_.scheme->first_step(instant(begin), allowed(state_.error, begin, length));
+      state_.next_step = scheme_.scheme->first_step(instant(begin), budget_.of_step(state_.error, begin, length));
     }
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
@@ -179,16 +203,45 @@ class HeatRun::Implementation {
         grid.refine();
         continue;
       }
+      const StepEnd start{grid.time(), std::make_shared<const Eigen::VectorXd>(state_.temperature)};
+      const double between = error_of_passed(step, start, grid);
+      if (between > budget_.of_passed(step.error)) {
+        ++state_.rejected_steps;
+        grid.refine();
+        continue;
+      }
       grid.advance();
       state_.next_step = dt;
       for (double expected = 8 * step.local_error; state_.next_step < 4 * dt; expected *= 8) {
-        if (expected > growth_margin * allowed(step.error, grid.time(), 2 * state_.next_step)) break;
+        if (expected > growth_margin * budget_.of_step(step.error, grid.time(), 2 * state_.next_step)) break;
         // At the interval's end the next one's grid begins, whose steps may be longer.
         if (!grid.done() && !grid.coarsen()) break;
         state_.next_step *= 2;
       }
-      accept(step, dt, grid.time(), progress);
+      remember(start, dt);
+      accept(step, dt, grid.time(), between, progress);
     }
+  }
+
+  // At the outputs that the step passes which the grid is at [K]; 0 if there are none.
+  [[nodiscard]] double error_of_passed(const Step& step, const StepEnd& start, const StepGrid& grid) const {
+    const double every = options_.output_every, end = start.time + grid.step();
+    if (every <= 0 || grid.step() < 1.5 * every) return 0;
+    StepEnds before = state_.earlier;
+    before.insert(before.begin(), start);
+    return BetweenSteps(end, *start.temperature + step.change, before).error(start.time + every, end - 0.5 * every, every);
+  }
+
+  void remember(const StepEnd& start, double length) {
+    StepEnds& ends = state_.earlier;
+    if (length < least_remembered * options_.output_every) return ends.clear();
+    ends.insert(ends.begin(), start);
+    ends.resize(std::min(ends.size(), BetweenSteps::ends_before));
+  }
+
+  // At an output that the last step passed.
+  [[nodiscard]] Eigen::VectorXd passed_at(double time) {
+    return held(model_, BetweenSteps(state_.time, state_.temperature, state_.earlier).at(time), drives_.at(time));
   }
 
   // A step sees what drives it at its own times only. Whatever rises and falls again has three bends at least: with two between
@@ -230,30 +283,20 @@ class HeatRun::Implementation {
     }
   }
 
-  void fixed_steps(double begin, double length, const std::function<void(double)>& progress) {
+  void fixed_steps(double begin, double length, const Progress& progress) {
     const auto count = static_cast<std::int64_t>(std::max(1.0, std::ceil(length / explicit_step_)));
     const double dt = length / static_cast<double>(count);
     for (std::int64_t i = 1; i <= count; ++i) {
       const Step step = scheme_.scheme->step(instant(begin + static_cast<double>(i - 1) * dt), dt);
-      accept(step, dt, begin + static_cast<double>(i) * dt, progress);
+      accept(step, dt, begin + static_cast<double>(i) * dt, 0, progress);
     }
   }
 
-  // How much error a step may add [K].
-  [[nodiscard]] double allowed(const Eigen::VectorXd& error, double time, double length) const {
-    const double left = options_.tolerance / scheme_.scheme->safety() - largest(error);
-    const double spread = left * length / std::max(options_.until - time, length);
-    return std::max(share_of_what_is_aimed_at(error),
-                    std::clamp(spread, least_spread * options_.tolerance, most_spread * options_.tolerance));
-  }
-  // By the step that the grid is at.
+  // How much error the step that the grid is at may add [K].
   [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid) const {
-    const double smooth = allowed(state_.error, grid.time(), grid.step());
+    const double smooth = budget_.of_step(state_.error, grid.time(), grid.step());
     const bool jumps = missed && std::max(largest(missed->free), largest(missed->held)) > smooth;
-    return jumps ? std::max(smooth, most_spread * options_.tolerance) : smooth;
-  }
-  [[nodiscard]] double share_of_what_is_aimed_at(const Eigen::VectorXd& error) const {
-    return share_of_room * (aim * options_.tolerance / scheme_.scheme->safety() - largest(error));
+    return jumps ? std::max(smooth, budget_.of_jump()) : smooth;
   }
 
   [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
@@ -264,7 +307,8 @@ class HeatRun::Implementation {
     for (const ExchangeRates& rates : drive.exchanges) state_.given.include(rates.surroundings);
   }
 
-  void accept(const Step& step, double dt, double time, const std::function<void(double)>& progress) {
+  // `between`: the error at outputs that the step passes [K].
+  void accept(const Step& step, double dt, double time, double between, const Progress& progress) {
     bookkeeper_.book(step, state_.temperature, dt, state_.ledger);
     state_.temperature += step.change;
     state_.error = step.error;
@@ -274,7 +318,7 @@ class HeatRun::Implementation {
           fmt::format("The temperatures are not finite after {:g} s. Look for huge loads or almost empty blocks", time));
     }
     state_.time = time;
-    state_.time_error = std::max(state_.time_error, scheme_.scheme->safety() * largest(state_.error));
+    state_.time_error = std::max(state_.time_error, scheme_.scheme->safety() * largest(state_.error) + between);
     ++state_.steps;
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
@@ -288,6 +332,7 @@ class HeatRun::Implementation {
   const HeatModel& model_;
   TimeOptions options_;
   ChosenScheme scheme_;  // refers to model_
+  ErrorBudget budget_;
   Bookkeeper bookkeeper_;
   Drives drives_;
   std::optional<LumpingEstimate> lumping_;  // if blocks are lumped
@@ -326,16 +371,20 @@ HeatRun::HeatRun(SharedModel model, const TimeOptions& options, std::optional<He
 
 HeatRun::~HeatRun() = default;
 
-void HeatRun::advance_to(double time, const std::function<void(double)>& progress) {
+void HeatRun::advance_to(double time, const Progress& progress) {
   implementation_->advance_to(time, progress);
+}
+
+void HeatRun::follow(const AtOutput& at_output, const Progress& progress) {
+  implementation_->follow(at_output, progress);
 }
 
 const HeatState& HeatRun::state() const {
   return implementation_->state();
 }
 
-double HeatRun::cost_exponent() const {
-  return implementation_->cost_exponent();
+WorkDone HeatRun::work_done() const {
+  return implementation_->work_done();
 }
 
 std::string HeatRun::solver() const {

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "thermal/between_steps.h"
 #include "thermal/heat_model.h"
 #include "thermal/lumping_error.h"
 #include "thermal/matrix_origin.h"
+#include "thermal/step_forecast.h"
 
 namespace scree::thermal {
 
@@ -56,6 +58,8 @@ struct HeatState {
   TemperatureRange given;
   LumpingError lumping;
   MatrixOrigin matrix;
+  // Ends of the steps before, but for those that are far shorter than the output interval.
+  StepEnds earlier;
 };
 
 // The first output time after `time`: a multiple of the output interval, or the end [s].
@@ -75,15 +79,23 @@ class HeatRun {
   HeatRun(SharedModel model, const TimeOptions& options, std::optional<HeatState> state);
   ~HeatRun();
 
-  // Advances to exactly `time`, meeting every multiple of `output_every` on the way, so that the steps do not depend on how
-  // often it is called with such times. `progress` is told the time after every step and may throw to stop; the state is then
-  // that of the last whole step.
-  void advance_to(double time, const std::function<void(double)>& progress = {});
+  // Told the time after every step; may throw to stop. The state is then that of the last whole step.
+  using Progress = std::function<void(double)>;
+
+  // To exactly `time`, where a step ends. Steps that are shorter than `output_every` end at its multiples, longer ones at some
+  // of them: a power of two of intervals is passed at once where nothing bends in between and the cubic through the ends of
+  // steps tells the temperatures there within the tolerance (between_steps.h).
+  void advance_to(double time, const Progress& progress = {});
+
+  // To the end. `at_output` is told each output time from now on, the present not included, and the temperatures then. Where
+  // they are the state's the run can go on from it without an output being missed: no step passes others before.
+  using AtOutput = std::function<void(double, const Eigen::VectorXd&)>;
+  void follow(const AtOutput& at_output, const Progress& progress = {});
 
   [[nodiscard]] const HeatState& state() const;
   [[nodiscard]] std::string solver() const;  // in words, for the summary
-  // How the cost of a step grows with its length (WorkDone).
-  [[nodiscard]] double cost_exponent() const;
+  // How far the work is that steps do up to a time, for the part that is done to be told.
+  [[nodiscard]] WorkDone work_done() const;
   // Whether the time error stayed within the tolerance so far.
   [[nodiscard]] bool within_tolerance() const;
 

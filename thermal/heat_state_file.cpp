@@ -15,7 +15,7 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 7";
+constexpr const char* format_name = "scree heat state 8";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
@@ -23,7 +23,7 @@ using Counts = std::vector<std::int64_t>;
 // A state as plain lists: when it is written, the long ones stay where they are.
 template <class Values>
 struct Lists {
-  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings, matrix;
+  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings, matrix, before, before_that;
   Doubles numbers;
   Counts counts;
 };
@@ -40,12 +40,24 @@ void for_each_list(SomeLists& lists, const Use& use) {
   use("by_applied", lists.by_applied);
   use("by_surroundings", lists.by_surroundings);
   use("matrix", lists.matrix);
+  use("before", lists.before);
+  use("before_that", lists.before_that);
   use("numbers", lists.numbers);
   use("counts", lists.counts);
 }
 
 std::span<const double> list_of(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+// The next step makes the last of the earlier ends one too many.
+constexpr std::size_t kept_ends = BetweenSteps::ends_before - 1;
+
+std::span<const double> list_of(const StepEnds& ends, std::size_t which) {
+  return which < ends.size() ? list_of(*ends[which].temperature) : std::span<const double>();
+}
+double time_of(const StepEnds& ends, std::size_t which) {
+  return which < ends.size() ? ends[which].time : 0;
 }
 
 Eigen::VectorXd vector_of(const Doubles& list) {
@@ -61,9 +73,11 @@ WrittenLists pack(const HeatState& state) {
           ledger.by_applied,
           ledger.by_surroundings,
           list_of(state.matrix.temperature),
+          list_of(state.earlier, 0),
+          list_of(state.earlier, 1),
           {state.time, state.next_step, state.time_error, state.least_step, state.largest_step, ledger.start_jump,
            ledger.stored, ledger.turnover, state.reached.least, state.reached.largest, state.given.least, state.given.largest,
-           state.lumping.largest, state.matrix.time, state.matrix.scale},
+           state.lumping.largest, state.matrix.time, state.matrix.scale, time_of(state.earlier, 0), time_of(state.earlier, 1)},
           {state.steps, state.rejected_steps, state.factorisations}};
 }
 
@@ -86,6 +100,11 @@ HeatState unpack(const ReadLists& lists) {
   state.reached = {lists.numbers.at(8), lists.numbers.at(9)};
   state.given = {lists.numbers.at(10), lists.numbers.at(11)};
   state.matrix = {vector_of(lists.matrix), lists.numbers.at(13), lists.numbers.at(14)};
+  const std::array<const Doubles*, kept_ends> earlier{&lists.before, &lists.before_that};
+  for (std::size_t i = 0; i < kept_ends; ++i) {
+    if (earlier[i]->empty()) break;
+    state.earlier.push_back({lists.numbers.at(15 + i), std::make_shared<const Eigen::VectorXd>(vector_of(*earlier[i]))});
+  }
   state.steps = lists.counts.at(0);
   state.rejected_steps = lists.counts.at(1);
   state.factorisations = lists.counts.at(2);
@@ -176,7 +195,7 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     const std::string found = get_text(in, "key");
     ReadLists lists;
     for_each_list(lists, [&](const char* name, auto& list) { get(in, name, list); });
-    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 15 && lists.counts.size() == 3;
+    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 17 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {
       refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",

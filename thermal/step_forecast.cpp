@@ -7,8 +7,8 @@ namespace scree::thermal {
 
 namespace {
 
-// After a sudden start a step may be this part of the time that has passed, from about the stable step up to the output
-// interval (README, "Which steps").
+// After a sudden start a step may be this part of the time that has passed, from about the stable step on (README, "Which
+// steps").
 constexpr double growth = 0.2;
 
 // What a matrix of Newton's iteration serves for, of the steps: measured 0.1 to 0.22 where properties change by a tenth.
@@ -17,10 +17,6 @@ constexpr double steps_of_matrix = 0.2;
 // What solving for an unsymmetric matrix costs of solves for a symmetric one: four times as many, most of one column in single
 // precision.
 constexpr double solves_of_unsymmetric = 2;
-
-double longest_step(const TimeOptions& options) {
-  return options.output_every > 0 ? std::min(options.output_every, options.until) : options.until;
-}
 
 // Steps of one length, and the time in which they are taken [s].
 struct EqualSteps {
@@ -34,8 +30,8 @@ struct EqualSteps {
 // Calls visit(EqualSteps) from the last and longest to the first, each length half of the one before it: as long as may be at
 // their time, and not below `first`.
 template <class Visit>
-void for_each_length(double first, const TimeOptions& options, const Visit& visit) {
-  double to = options.until, length = longest_step(options);
+void for_each_length(double first, const StepTimes& times, const Visit& visit) {
+  double to = times.until, length = times.longest;
   for (; length > first; length /= 2) {
     const double from = length / growth;
     if (from >= to) continue;
@@ -59,18 +55,25 @@ void add(const EqualSteps& steps, double stable, StepForecast& forecast) {
 
 }  // namespace
 
-StepForecast forecast_steps(double stable, const TimeOptions& options) {
+StepTimes step_times(const TimeOptions& options, bool changes_in_time) {
+  const double every = options.output_every;
+  if (every <= 0 || every >= options.until) return {options.until, options.until};
+  const double intervals = changes_in_time ? 1 : std::exp2(std::floor(std::log2(options.until / every)));
+  return {options.until, intervals * every};
+}
+
+StepForecast forecast_steps(double stable, const StepTimes& times) {
   StepForecast forecast;
-  for_each_length(stable, options, [&](const EqualSteps& steps) { add(steps, stable, forecast); });
+  for_each_length(stable, times, [&](const EqualSteps& steps) { add(steps, stable, forecast); });
   return forecast;
 }
 
-StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts& costs, const SolverCost& solver) {
-  const StepForecast all = forecast_steps(stable, options);
+StepMix cheapest_mix(double stable, const StepTimes& times, const StepCosts& costs, const SolverCost& solver) {
+  const StepForecast all = forecast_steps(stable, times);
   StepMix best{0, 0, costs.use_of(all)(solver)};
   const double solves_of_step = costs.use_of({1, 0, 0}).solves * solver.solve;
   StepForecast longer;
-  for_each_length(stable, options, [&](const EqualSteps& steps) {
+  for_each_length(stable, times, [&](const EqualSteps& steps) {
     const bool dear = costs.lengths_may_last && products_of(steps.length, stable) * costs.product > solves_of_step;
     if (longer.steps > 0 && !dear) {
       const double products = all.products - longer.products;
@@ -82,16 +85,16 @@ StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts&
   return best;
 }
 
-WorkDone::WorkDone(const TimeOptions& options, double cost_exponent) : options_(options), exponent_(cost_exponent) {}
+WorkDone::WorkDone(const StepTimes& times, double cost_exponent) : times_(times), exponent_(cost_exponent) {}
 
 double WorkDone::part(double time) {
   if (first_ == 0) first_ = time;
-  return work(time) / work(options_.until);
+  return work(time) / work(times_.until);
 }
 
 double WorkDone::work(double time) const {
   double work = 0;
-  for_each_length(first_, options_,
+  for_each_length(first_, times_,
                   [&](const EqualSteps& steps) { work += steps.count_before(time) * std::pow(steps.length, exponent_); });
   return work;
 }

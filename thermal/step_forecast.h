@@ -12,8 +12,18 @@ struct StepForecast {
   double products = 0;  // with K, of stabilised explicit steps
 };
 
+// Over how long steps are taken, and the longest of them [s].
+struct StepTimes {
+  double until = 0;
+  double longest = 0;
+};
+
+// Where nothing changes in time steps pass output times, as HeatRun says: the longest is a power of two of their intervals.
+// Else it is one interval, as steps end where what changes may bend.
+StepTimes step_times(const TimeOptions& options, bool changes_in_time);
+
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.
-StepForecast forecast_steps(double stable, const TimeOptions& options);
+StepForecast forecast_steps(double stable, const StepTimes& times);
 
 // What implicit steps ask of their solver, where the properties are constant and where they are not.
 SolverUse use_of_linear_steps(const StepForecast& forecast);
@@ -37,7 +47,7 @@ struct StepCosts {
 };
 
 // `solver`: what solves for the implicit ones.
-StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts& costs, const SolverCost& solver);
+StepMix cheapest_mix(double stable, const StepTimes& times, const StepCosts& costs, const SolverCost& solver);
 
 // The part of a run's work that is done by a time, so that what is left can be told from it: after a sudden start most of the
 // steps are far shorter than those at the end, and the part of the time would say for long that nearly all is left to do.
@@ -45,7 +55,7 @@ StepMix cheapest_mix(double stable, const TimeOptions& options, const StepCosts&
 class WorkDone {
  public:
   // What a step costs is taken to grow as this power of its length: 0 for implicit ones, 1/2 for stabilised, 1 for Euler's.
-  WorkDone(const TimeOptions& options, double cost_exponent);
+  WorkDone(const StepTimes& times, double cost_exponent);
 
   // After each step, at these times [s].
   [[nodiscard]] double part(double time);
@@ -53,7 +63,7 @@ class WorkDone {
  private:
   [[nodiscard]] double work(double time) const;
 
-  TimeOptions options_;
+  StepTimes times_;
   double exponent_;
   double first_ = 0;
 };

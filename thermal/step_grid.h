@@ -1,4 +1,4 @@
-// Where steps may end: an interval between two output times, halved again and again.
+// Where steps may end: an interval between two output times, or a power of two of them, halved again and again.
 //
 // Steps of one interval are its length over a power of two and aligned, so the interval's end is met exactly, only a few
 // different steps occur (each costs a factorisation), and a run resumed at an output time takes the same steps to the bit.

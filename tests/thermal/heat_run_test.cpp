@@ -272,7 +272,7 @@ TEST(HeatRun, NothingHappensAtASteadyState) {
       10, [](HeatOptions& options) { options.boundaries.push_back(test::hold(BodyId{0}, 0, 298.15, "as cold as the rest")); });
   HeatRun run(model, times(1000, 100, 0.1));
   run.advance_to(1000);
-  EXPECT_EQ(run.state().steps, 10);
+  EXPECT_EQ(run.state().steps, 5) << "two outputs are passed at once after three steps, and four";
   EXPECT_LT((run.state().temperature - model.initial).lpNorm<Eigen::Infinity>(), 1e-12);
   EXPECT_EQ(run.state().ledger.relative_residual(), 0);
 }

@@ -40,9 +40,9 @@ TEST(StepForecast, OfStepsAndTheirLengthsIsWithinAFactorOfFourOfThoseTaken) {
     const HeatModel model = suddenly_heated(beta);
     for (const double every : {60.0, 3600.0}) {
       const TimeOptions options = times(4 * every, every);
-      const StepForecast forecast = forecast_steps(stable_step(model).step, options);
+      const StepForecast forecast = forecast_steps(stable_step(model).step, step_times(options, false));
       HeatRun run(model, options);
-      for (int k = 1; k <= 4; ++k) run.advance_to(k * every);
+      run.advance_to(options.until);
       const auto steps = static_cast<double>(run.state().steps);
       const auto lengths = static_cast<double>(run.state().factorisations);
       EXPECT_GT(forecast.steps, steps / 4) << beta << ' ' << every;
@@ -53,11 +53,11 @@ TEST(StepForecast, OfStepsAndTheirLengthsIsWithinAFactorOfFourOfThoseTaken) {
   }
 }
 
-// One after the other: halves of the output interval, each as long as a fifth of the time that has passed allows.
-std::vector<double> steps_one_by_one(double first, const TimeOptions& options) {
+// One after the other: halves of the longest one, each as long as a fifth of the time that has passed allows.
+std::vector<double> steps_one_by_one(double first, const StepTimes& times) {
   std::vector<double> lengths;
-  for (double time = 0; time < options.until - 1e-9; time += lengths.back()) {
-    double length = options.output_every;
+  for (double time = 0; time < times.until - 1e-9; time += lengths.back()) {
+    double length = times.longest;
     while (length > std::max(first, time / 5)) length /= 2;
     lengths.push_back(length);
   }
@@ -76,9 +76,10 @@ double products_of(const std::vector<double>& steps, double stable) {
 
 TEST(StepForecast, IsWhatStepsThatGrowOneByOneAddUpTo) {
   const double stable = 0.5;
-  for (const TimeOptions& options : {times(5000, 5000), times(5000, 1000), times(5000, 50)}) {
-    const std::vector<double> steps = steps_one_by_one(stable, options);
-    const StepForecast forecast = forecast_steps(stable, options);
+  for (const double longest : {5000, 1000, 50}) {
+    const StepTimes range{5000, longest};
+    const std::vector<double> steps = steps_one_by_one(stable, range);
+    const StepForecast forecast = forecast_steps(stable, range);
     EXPECT_NEAR(forecast.steps, static_cast<double>(steps.size()), 0.05 * forecast.steps);
     EXPECT_NEAR(forecast.products, products_of(steps, stable), 0.05 * forecast.products);
     EXPECT_EQ(forecast.lengths, static_cast<double>(std::set<double>(steps.begin(), steps.end()).size()));
@@ -88,8 +89,8 @@ TEST(StepForecast, IsWhatStepsThatGrowOneByOneAddUpTo) {
 // Every length may be the longest of the short ones.
 TEST(StepMix, CostsLeastOfAll) {
   const double stable = 0.01;
-  const TimeOptions options = times(43200, 600);
-  const std::vector<double> steps = steps_one_by_one(stable, options);
+  const StepTimes range{43200, 600};
+  const std::vector<double> steps = steps_one_by_one(stable, range);
   const std::set<double> lengths(steps.begin(), steps.end());
   std::set<double> taken;
   for (const double solve : {1.0, 10.0, 1e2, 1e3}) {
@@ -105,8 +106,8 @@ TEST(StepMix, CostsLeastOfAll) {
         return sum + matrix * static_cast<double>(made.size());
       };
       double least = seconds(0);
-      for (const double length : lengths) least = std::min(least, length < options.output_every ? seconds(length) : least);
-      const StepMix mix = cheapest_mix(stable, options, {1}, solver);
+      for (const double length : lengths) least = std::min(least, length < range.longest ? seconds(length) : least);
+      const StepMix mix = cheapest_mix(stable, range, {1}, solver);
       EXPECT_LE(seconds(mix.longest_short), 1.03 * least) << solve << ' ' << matrix;
       EXPECT_NEAR(mix.seconds, seconds(mix.longest_short), 0.05 * least) << solve << ' ' << matrix;
       taken.insert(mix.longest_short);
@@ -116,19 +117,27 @@ TEST(StepMix, CostsLeastOfAll) {
 }
 
 TEST(StepMix, LeavesAllStepsImplicitWhereSolvesCostNothing) {
-  EXPECT_EQ(cheapest_mix(0.01, times(43200, 600), {1}, {}).longest_short, 0);
+  EXPECT_EQ(cheapest_mix(0.01, {43200, 600}, {1}, {}).longest_short, 0);
 }
 
 // Four solves of 5 cost as much as the twenty products of a step of 100 stable ones.
 TEST(StepMix, LeavesNoStepExplicitThatCostsMoreThanItsSolvesWhereAnyLengthMayLast) {
   const SolverCost solver{1e4, 5};
-  const double once = cheapest_mix(1, times(51200, 3200), {1, use_of_linear_steps, false}, solver).longest_short;
+  const double once = cheapest_mix(1, {51200, 3200}, {1, use_of_linear_steps, false}, solver).longest_short;
   EXPECT_GT(once, 100);
-  EXPECT_EQ(cheapest_mix(1, times(51200, 3200), {1, use_of_linear_steps, true}, solver).longest_short, 100);
+  EXPECT_EQ(cheapest_mix(1, {51200, 3200}, {1, use_of_linear_steps, true}, solver).longest_short, 100);
 }
 
-TEST(StepForecast, WhereNothingConductsIsOneStepAnOutput) {
-  const StepForecast forecast = forecast_steps(std::numeric_limits<double>::infinity(), times(100, 10));
+TEST(StepForecast, TakesStepsThatPassAPowerOfTwoOfOutputsWhereNothingChangesInTime) {
+  EXPECT_EQ(step_times(times(43200, 600), false).longest, 64 * 600);
+  EXPECT_EQ(step_times(times(43200, 600), true).longest, 600);
+  EXPECT_EQ(step_times(times(1000, 600), false).longest, 600);
+  EXPECT_EQ(step_times(times(500, 600), true).longest, 500);
+  EXPECT_EQ(step_times(times(500, 0), true).longest, 500);
+}
+
+TEST(StepForecast, WhereNothingConductsIsOfTheLongestSteps) {
+  const StepForecast forecast = forecast_steps(std::numeric_limits<double>::infinity(), {100, 10});
   EXPECT_DOUBLE_EQ(forecast.steps, 10);
   EXPECT_DOUBLE_EQ(forecast.lengths, 1);
   EXPECT_DOUBLE_EQ(forecast.products, 0);
@@ -137,14 +146,12 @@ TEST(StepForecast, WhereNothingConductsIsOneStepAnOutput) {
 TEST(WorkDone, IsAboutThePartOfTheStepsThatARunHasTakenAndNotThatOfItsTime) {
   const TimeOptions options = times(4 * 3600, 3600);
   HeatRun run(suddenly_heated(10), options);
-  WorkDone work(options, run.cost_exponent());
+  WorkDone work = run.work_done();
   std::vector<double> parts, passed;
-  for (int k = 1; k <= 4; ++k) {
-    run.advance_to(k * 3600, [&](double time) {
-      parts.push_back(work.part(time));
-      passed.push_back(time / options.until);
-    });
-  }
+  run.advance_to(options.until, [&](double time) {
+    parts.push_back(work.part(time));
+    passed.push_back(time / options.until);
+  });
   double of_work = 0, of_time = 0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double steps = static_cast<double>(i + 1) / static_cast<double>(parts.size());
@@ -158,9 +165,9 @@ TEST(WorkDone, IsAboutThePartOfTheStepsThatARunHasTakenAndNotThatOfItsTime) {
 }
 
 TEST(WorkDone, OfStabilisedStepsIsThePartOfTheirProducts) {
-  const TimeOptions options = times(5000, 1000);
-  const std::vector<double> steps = steps_one_by_one(0.5, options);
-  WorkDone work(options, 0.5);
+  const StepTimes range{5000, 1000};
+  const std::vector<double> steps = steps_one_by_one(0.5, range);
+  WorkDone work(range, 0.5);
   EXPECT_GT(work.part(steps.front()), 0);
   double time = 0, products = 0;
   for (const double length : steps) {
@@ -171,7 +178,7 @@ TEST(WorkDone, OfStabilisedStepsIsThePartOfTheirProducts) {
 }
 
 TEST(WorkDone, OfEqualStepsIsThePartOfTheTime) {
-  WorkDone work(times(5000, 1000), 1);
+  WorkDone work({5000, 1000}, 1);
   for (const double time : {100.0, 900.0, 1000.0, 1700.0, 5000.0}) EXPECT_NEAR(work.part(time), time / 5000, 1e-12);
 }
 

@@ -89,10 +89,10 @@ TEST(VaryingProperties, AResumedRunRepeatsTheUninterruptedOneToTheBit) {
   time.output_every = 20;
   HeatRun whole(model, time);
   std::vector<HeatState> states;
-  for (int k = 1; k <= 10; ++k) {
-    whole.advance_to(20.0 * k);
-    states.push_back(whole.state());
-  }
+  whole.follow([&](double at, const Eigen::VectorXd&) {
+    if (at == whole.state().time) states.push_back(whole.state());
+  });
+  EXPECT_GE(states.size(), 5);
   const HeatState& end = states.back();
   EXPECT_LT(end.factorisations, end.steps / 2) << "no matrix serves for several steps";
   for (const HeatState& from : states) {

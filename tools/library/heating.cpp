@@ -42,13 +42,30 @@ Heating<dim>::Heating(Scene scene, const packing::Packing<dim>& packing) : scene
 }
 
 template <int dim>
-void Heating<dim>::advance_to(double time, const std::function<void(double)>& progress) {
-  if (!run_) refuse(scene_, "heat.until", "steady", "a steady state has no time to advance to", "");
+void Heating<dim>::advance_to(double time, const Progress& progress) {
+  check_it_goes_on();
   if (!(time >= state().time)) {
     refuse(scene_, "the time", fmt::format("{:g} s", time), fmt::format("must be at least {:g} s, the present", state().time),
            "");
   }
   if (time > state().time) run_->advance_to(time, progress);
+}
+
+template <int dim>
+void Heating<dim>::follow(const AtOutput& at_output, const Progress& progress) {
+  check_it_goes_on();
+  const auto read_probes = [&](double time, const Eigen::VectorXd& of_rows) {
+    const Eigen::VectorXd of_nodes = model_->rows.to_nodes(of_rows);
+    std::vector<double> values;
+    for (const auto& probe : pile_.probes) values.push_back(output::value_at(probe, of_nodes));
+    at_output(time, values);
+  };
+  run_->follow(read_probes, progress);
+}
+
+template <int dim>
+void Heating<dim>::check_it_goes_on() const {
+  if (!run_) refuse(scene_, "heat.until", "steady", "a steady state has no time to advance to", "");
 }
 
 template <int dim>
@@ -69,17 +86,6 @@ double Heating<dim>::probe(const std::string& name) const {
 template <int dim>
 std::vector<double> Heating<dim>::contact_flows() const {
   return thermal::contact_flows(pile_.contacts, pile_.joints, temperature(), scene_.heat->joint.form);
-}
-
-template <int dim>
-std::vector<double> Heating<dim>::next_outputs() const {
-  std::vector<double> times;
-  if (!run_) return times;
-  const thermal::TimeOptions& options = scene_.heat->time;
-  for (double time = state().time; time < options.until; times.push_back(time)) {
-    time = thermal::next_output(options, time);
-  }
-  return times;
 }
 
 template class Heating<2>;

@@ -83,17 +83,19 @@ std::map<std::string, double> probes(const AnyHeating& self) {
 
 // The scene's output times that are still to come, and the probes at them.
 py::dict follow(AnyHeating& self) {
+  self.now.reset();
   std::vector<double> times{state(self).time};
   std::map<std::string, std::vector<double>> values;
-  const auto note = [&] {
-    for (const auto& [name, value] : probes(self)) values[name].push_back(value);
-  };
-  note();
-  for (const double time : self.use([](const auto& heating) { return heating.next_outputs(); })) {
-    advance(self, time);
-    times.push_back(time);
-    note();
-  }
+  for (const auto& [name, value] : probes(self)) values[name].push_back(value);
+  self.use([&](auto& heating) {
+    if (heating.scene().heat->time.steady) return;
+    const py::gil_scoped_release others_may_run;
+    const auto note = [&](double time, const std::vector<double>& of_probes) {
+      times.push_back(time);
+      for (std::size_t i = 0; i < of_probes.size(); ++i) values[heating.pile().probes[i].name].push_back(of_probes[i]);
+    };
+    heating.follow(note, [](double) { check_signals(); });
+  });
   py::dict history;
   history["time"] = own(std::move(times));
   for (auto& [name, column] : values) history[name.c_str()] = own(std::move(column));

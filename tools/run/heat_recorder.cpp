@@ -24,6 +24,9 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
 // the restart file takes as long as a frame of temperatures.
 constexpr std::chrono::seconds longest_unsaved{1};
 
+// Temperatures of outputs that a step has passed, for frames: more are not kept in memory.
+constexpr double most_bytes_waiting = 64e6;
+
 // The same probes, that read the rows of a model instead of the nodes of its mesh.
 template <int dim>
 std::vector<output::Probe<dim>> probes_of_rows(std::vector<output::Probe<dim>> probes, const thermal::NodeMap& rows) {
@@ -86,14 +89,38 @@ HeatRecorder<dim>::~HeatRecorder() {
 
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
+  add_row(state.time, state.temperature);
+  if (frame_due(scene_, state.time)) {
+    waiting_.push_back([this, kept = std::make_shared<const thermal::HeatState>(state)](bool beside) {
+      write_frame(kept->time, kept->temperature, beside);
+      keep(kept);
+    });
+  }
+  write_waiting(state.time < scene_.heat->time.until);
+}
+
+template <int dim>
+void HeatRecorder<dim>::record_passed(double time, const Eigen::VectorXd& temperature) {
+  add_row(time, temperature);
+  if (!frame_due(scene_, time)) return;
+  waiting_.push_back([this, time, temperature](bool beside) { write_frame(time, temperature, beside); });
+  if (static_cast<double>(waiting_.size() * temperature.size() * sizeof(double)) > most_bytes_waiting) write_waiting(true);
+}
+
+// Beside frames that are being written: a row takes less than to start a thread.
+template <int dim>
+void HeatRecorder<dim>::add_row(double time, const Eigen::VectorXd& temperature) {
   if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) finish();
-  // Beside a frame that is being written: a row takes less than to start a thread.
-  if (table_) table_->append(state.time, output::column_values(probes_, state.temperature, state.time));
-  if (!frame_due(scene_, state.time)) return;
+  if (table_) table_->append(time, output::column_values(probes_, temperature, time));
+}
+
+template <int dim>
+void HeatRecorder<dim>::write_waiting(bool beside) {
+  if (waiting_.empty()) return;
   finish();
-  pending_ = std::async(std::launch::async, [this, state]() mutable {
+  pending_ = std::async(std::launch::async, [frames = std::exchange(waiting_, {}), beside] {
     use_threads(1);  // of this thread's own loops
-    write(std::move(state));
+    for (const auto& write : frames) write(beside);
   });
 }
 
@@ -103,13 +130,12 @@ void HeatRecorder<dim>::finish() {
 }
 
 template <int dim>
-void HeatRecorder<dim>::write(thermal::HeatState state) {
-  write_frame(model_.rows.to_nodes(state.temperature), state);
-  if (state.time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
+void HeatRecorder<dim>::keep(std::shared_ptr<const thermal::HeatState> state) {
+  if (state->time == 0) {  // a run that starts has nothing to go on from, least of all an earlier run's state
     std::filesystem::remove(restart_);
     name_frames();
-  } else if (state.time >= scene_.heat->time.until || std::chrono::steady_clock::now() - saved_ >= longest_unsaved) {
-    save(state);
+  } else if (state->time >= scene_.heat->time.until || std::chrono::steady_clock::now() - saved_ >= longest_unsaved) {
+    save(*state);
   } else {
     unsaved_ = std::move(state);
   }
@@ -130,12 +156,13 @@ void HeatRecorder<dim>::name_frames() {
 }
 
 template <int dim>
-void HeatRecorder<dim>::write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state) {
+void HeatRecorder<dim>::write_frame(double time, const Eigen::VectorXd& of_rows, bool beside) {
+  const Eigen::VectorXd temperature = model_.rows.to_nodes(of_rows);
   const auto write_blocks = [&] {
     const auto flux = thermal::cell_fluxes(pile_.mesh, scene_.materials, temperature);
-    output::Frame frame = heat_frame<dim>(state.time, temperature, flux);
+    output::Frame frame = heat_frame<dim>(time, temperature, flux);
     if (space_error_) {
-      const auto rate = model_.rows.to_nodes(thermal::temperature_rate(model_, state.temperature, state.time));
+      const auto rate = model_.rows.to_nodes(thermal::temperature_rate(model_, of_rows, time));
       const auto error = thermal::estimate_space_error(pile_.mesh, scene_.materials, temperature, rate);
       frame.cells.push_back({"space_error", 1, largest_in_cells(pile_.mesh, error.of_element)});
     }
@@ -144,10 +171,9 @@ void HeatRecorder<dim>::write_frame(const Eigen::VectorXd& temperature, const th
   const auto write_contacts = [&] {
     if (!contact_series_) return;
     auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
-    contact_series_->add(output::Frame{state.time, {}, {{"heat_flow", 1, std::move(flows)}}});
+    contact_series_->add(output::Frame{time, {}, {{"heat_flow", 1, std::move(flows)}}});
   };
-  // Until the last frame the other threads compute.
-  call_both(several_threads_ && state.time >= scene_.heat->time.until, write_blocks, write_contacts);
+  call_both(several_threads_ && !beside, write_blocks, write_contacts);
 }
 
 template class HeatRecorder<2>;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,19 +31,25 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // Frames are written beside the computation; what goes wrong there is thrown by the next record() after it or by finish().
+  // At an output where a step ends, from whose state the run can go on. Its frame and those passed before are written beside
+  // the computation; what goes wrong there is thrown by the next record() after it or by finish().
   void record(const thermal::HeatState& state);
+  // At an output that the step passes.
+  void record_passed(double time, const Eigen::VectorXd& temperature);
 
   // Waits until everything is written.
   void finish();
 
  private:
-  void write(thermal::HeatState state);
+  void add_row(double time, const Eigen::VectorXd& temperature);
+  // In a thread of their own, when those before are written. `beside`: whether the run goes on meanwhile.
+  void write_waiting(bool beside);
+  void keep(std::shared_ptr<const thermal::HeatState> state);
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
   // be some time behind the frames and the rows of the probes: a run that is killed computes that again.
   void save(const thermal::HeatState& state);
   void name_frames();
-  void write_frame(const Eigen::VectorXd& temperature, const thermal::HeatState& state);
+  void write_frame(double time, const Eigen::VectorXd& of_rows, bool beside);
 
   const Scene& scene_;
   const HeatedPile<dim>& pile_;
@@ -54,7 +62,8 @@ class HeatRecorder {
   std::optional<output::ProbeTable> table_;
   bool space_error_ = false;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
-  std::optional<thermal::HeatState> unsaved_;                                       // of the last frame
+  std::shared_ptr<const thermal::HeatState> unsaved_;                               // of the last frame with a state
+  std::vector<std::function<void(bool beside)>> waiting_;                           // frames that no thread writes yet
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
 

@@ -38,15 +38,15 @@ std::optional<thermal::HeatState> interrupted_state(const RunContext& context, c
 
 template <int dim>
 void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& recorder) {
-  const thermal::TimeOptions& options = context.scene.heat->time;
-  thermal::WorkDone work(options, run.cost_exponent());
-  while (run.state().time < options.until) {
-    run.advance_to(thermal::next_output(options, run.state().time), [&](double time) {
-      check_interrupt();
-      context.progress.update(work.part(time), fmt::format("{:.4g} of {:.4g} s", time, options.until));
-    });
-    recorder.record(run.state());
-  }
+  const double until = context.scene.heat->time.until;
+  thermal::WorkDone work = run.work_done();
+  const auto at_output = [&](double time, const Eigen::VectorXd& temperature) {
+    time == run.state().time ? recorder.record(run.state()) : recorder.record_passed(time, temperature);
+  };
+  run.follow(at_output, [&](double time) {
+    check_interrupt();
+    context.progress.update(work.part(time), fmt::format("{:.4g} of {:.4g} s", time, until));
+  });
   recorder.finish();
 }
 

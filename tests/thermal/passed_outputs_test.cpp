@@ -1,0 +1,167 @@
+// Outputs that steps pass.
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/temp_folder.h"
+#include "tests/thermal/builders.h"
+#include "thermal/heat_run.h"
+
+namespace scree::thermal {
+namespace {
+
+using test::bar;
+
+// Two bars and a joint; the left end is held at a temperature.
+HeatModel heated_pair(const Function& held, double beta, const Curve& specific_heat = 800.0) {
+  auto right = bar<2>(0.1, 8, 2, 0.05);
+  right.low[0] = 0.1;
+  const auto mesh = test::slab_mesh<2>({bar<2>(0.1, 8, 2, 0.05), right});
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint.law = StiffnessFactor{beta};
+  Boundary end = test::hold(BodyId{0}, 0, 0, "end");
+  end.condition = FixedTemperature{held};
+  options.boundaries.push_back(end);
+  Table<MaterialId, Material> materials = test::rock_only();
+  materials[MaterialId{0}].specific_heat = specific_heat;
+  return make_heat_model(mesh, materials, test::matching_contacts(mesh), options);
+}
+
+TimeOptions two_hours(double every, Integrator integrator = Integrator::automatic) {
+  TimeOptions options;
+  options.until = 7200;
+  options.output_every = every;
+  options.integrator = integrator;
+  return options;
+}
+
+struct Followed {
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> temperatures;
+  std::vector<HeatState> states;  // where a step ended
+};
+
+Followed follow(HeatRun& run) {
+  Followed followed;
+  run.follow([&](double time, const Eigen::VectorXd& temperature) {
+    followed.times.push_back(time);
+    followed.temperatures.push_back(temperature);
+    if (time == run.state().time) followed.states.push_back(run.state());
+  });
+  return followed;
+}
+
+class PassedOutputs : public ::testing::TestWithParam<Integrator> {};
+
+TEST_P(PassedOutputs, CostNoSteps) {
+  for (const double beta : {1.0, 1e3, 1e6}) {
+    const HeatModel model = heated_pair(400, beta);
+    const auto steps_with = [&](double every) {
+      HeatRun run(model, two_hours(every, GetParam()));
+      EXPECT_EQ(follow(run).times.size(), 7200 / every);
+      EXPECT_TRUE(run.within_tolerance());
+      return static_cast<double>(run.state().steps);
+    };
+    const double few = steps_with(3600);
+    EXPECT_LT(steps_with(10), 1.15 * few) << beta;
+    EXPECT_LT(steps_with(1), 1.15 * few) << beta;
+  }
+}
+
+TEST_P(PassedOutputs, AreWithinTheTimeErrorOfAFinerRun) {
+  const Curve varying = Curve::from_table(LinearTable({200, 500}, {700, 900}));
+  for (const Curve& specific_heat : {Curve(800.0), varying}) {
+    for (const double beta : {1.0, 1e3, 1e6}) {
+      const HeatModel model = heated_pair(400, beta, specific_heat);
+      TimeOptions fine = two_hours(20, GetParam());
+      fine.tolerance = 0.002;
+      HeatRun coarse_run(model, two_hours(20, GetParam())), fine_run(model, fine);
+      const Followed coarse = follow(coarse_run), exact = follow(fine_run);
+      ASSERT_EQ(coarse.times, exact.times);
+      double largest = 0;
+      for (std::size_t i = 0; i < coarse.times.size(); ++i) {
+        largest = std::max(largest, (coarse.temperatures[i] - exact.temperatures[i]).lpNorm<Eigen::Infinity>());
+      }
+      EXPECT_LT(largest, coarse_run.state().time_error + fine_run.state().time_error) << beta;
+      EXPECT_LT(coarse.states.size(), coarse.times.size() / 3) << "steps have passed outputs";
+    }
+  }
+}
+
+TEST_P(PassedOutputs, ARunThatGoesOnFromAStateRepeatsThemToTheBit) {
+  const HeatModel model = heated_pair(400, 100);
+  const TimeOptions options = two_hours(20, GetParam());
+  const auto file = scree::test::temp_folder() / "passed.h5";
+  HeatRun whole(model, options);
+  const Followed followed = follow(whole);
+  for (const HeatState& state : followed.states) {
+    write(state, "key", file);
+    HeatRun resumed(model, options, read_state(file, "key"));
+    const Followed rest = follow(resumed);
+    const std::size_t before = followed.times.size() - rest.times.size();
+    for (std::size_t i = 0; i < rest.times.size(); ++i) {
+      ASSERT_EQ(rest.times[i], followed.times[before + i]);
+      ASSERT_EQ(rest.temperatures[i], followed.temperatures[before + i]) << state.time << ' ' << rest.times[i];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, PassedOutputs, ::testing::Values(Integrator::implicit, Integrator::stabilised_explicit),
+                         [](const auto& of) { return of.param == Integrator::implicit ? "implicit" : "stabilised"; });
+
+TEST(Outputs, AreAllToldOnceAndInOrderWhateverTheInterval) {
+  const HeatModel model = heated_pair(400, 1);
+  for (const double every : {7.0, 30.0, 100.0, 2500.0, 9000.0}) {
+    for (const Integrator integrator : {Integrator::automatic, Integrator::explicit_euler}) {
+      HeatRun run(model, two_hours(every, integrator));
+      std::vector<double> expected;
+      for (int k = 1; k * every < 7200; ++k) expected.push_back(k * every);
+      expected.push_back(7200);
+      EXPECT_EQ(follow(run).times, expected);
+      EXPECT_EQ(run.state().time, 7200);
+    }
+  }
+}
+
+TEST(Outputs, StillComeWhereARunGoesOnFromATimeBetweenThem) {
+  const HeatModel model = heated_pair(400, 1);
+  HeatRun run(model, two_hours(1000));
+  run.advance_to(1700);
+  EXPECT_EQ(run.state().time, 1700);
+  EXPECT_EQ(follow(run).times, (std::vector<double>{2000, 3000, 4000, 5000, 6000, 7000, 7200}));
+}
+
+// A table's bends are known; what is between them is smooth.
+TEST(Outputs, ArePassedBetweenTheBendsOfATableButNotAtThem) {
+  const auto held = Function::from_table(LinearTable({0, 3600, 7200}, {400, 400, 330}), ValueRule{});
+  const HeatModel model = heated_pair(held, 1);
+  TimeOptions fine = two_hours(20);
+  fine.tolerance = 0.002;
+  HeatRun run(model, two_hours(20)), fine_run(model, fine);
+  const Followed coarse = follow(run), exact = follow(fine_run);
+  double largest = 0;
+  for (std::size_t i = 0; i < coarse.times.size(); ++i) {
+    largest = std::max(largest, (coarse.temperatures[i] - exact.temperatures[i]).lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_LT(largest, run.state().time_error + fine_run.state().time_error);
+  const auto ends_at = [&](double time) {
+    return std::any_of(coarse.states.begin(), coarse.states.end(), [&](const HeatState& state) { return state.time == time; });
+  };
+  EXPECT_TRUE(ends_at(3600));
+  EXPECT_LT(coarse.states.size(), coarse.times.size() / 2);
+  for (std::size_t i = 0; i < coarse.times.size(); ++i) {
+    EXPECT_DOUBLE_EQ(coarse.temperatures[i][model.fixed_nodes.front().value()], held(Eigen::Vector3d::Zero(), coarse.times[i]));
+  }
+}
+
+// Where it bends is not known.
+TEST(Outputs, AreMetByStepsWhereAFormulaDrives) {
+  const auto unit = std::get<UnitConverter>(unit_converter("K", quantity::temperature));
+  const HeatModel model = heated_pair(Function::from_expression("400 - t/1000", unit, ValueRule{}), 1);
+  HeatRun run(model, two_hours(600));
+  EXPECT_EQ(follow(run).states.size(), 12);
+}
+
+}  // namespace
+}  // namespace scree::thermal

@@ -1,0 +1,50 @@
+#include "thermal/between_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+
+namespace scree::thermal {
+
+BetweenSteps::BetweenSteps(double time, const Eigen::VectorXd& temperature, const StepEnds& before)
+    : times_{time}, temperatures_{&temperature} {
+  SCREE_EXPECT(before.size() >= ends_before);
+  for (std::size_t i = 0; i < ends_before; ++i) {
+    times_[i + 1] = before[i].time;
+    temperatures_[i + 1] = before[i].temperature.get();
+  }
+}
+
+Eigen::VectorXd BetweenSteps::at(double time) const {
+  Four weights;  // Lagrange's
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = 1;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      if (j != i) weights[i] *= (time - times_[j]) / (times_[i] - times_[j]);
+    }
+  }
+  return weighted(weights);
+}
+
+double BetweenSteps::error(double first, double last, double every) const {
+  Four weights;  // of D
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = 1;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      if (j != i) weights[i] /= times_[i] - times_[j];
+    }
+  }
+  double farthest = 0;
+  for (double time = first; time <= last; time += every) {
+    farthest = std::max(farthest, std::abs((time - times_[0]) * (time - times_[1]) * (time - times_[2])));
+  }
+  return farthest * weighted(weights).lpNorm<Eigen::Infinity>();
+}
+
+Eigen::VectorXd BetweenSteps::weighted(const Four& weights) const {
+  return weights[0] * *temperatures_[0] + weights[1] * *temperatures_[1] + weights[2] * *temperatures_[2] +
+         weights[3] * *temperatures_[3];
+}
+
+}  // namespace scree::thermal
