@@ -13,9 +13,9 @@
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/problems.h"
-#include "thermal/stable_step.h"
 #include "thermal/step_grid.h"
 #include "thermal/time_bends.h"
+#include "thermal/time_options.h"
 
 namespace scree::thermal {
 
@@ -27,32 +27,6 @@ constexpr double least_remembered = 0.125 * (1 - 1e-9);
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
-
-// Time is on an output time if it is this close to one, in output intervals.
-constexpr double on_grid = 1e-9;
-
-TimeOptions checked(const TimeOptions& options) {
-  const auto refuse = [](const std::string& key, double value, const std::string& rule) {
-    throw InputError(problem("heat." + key, fmt::format("{:g}", value), rule));
-  };
-  if (!(options.tolerance > 0)) refuse("tolerance", options.tolerance, "must be positive, K");
-  if (!(options.output_every >= 0)) refuse("output_every", options.output_every, "must not be negative, s");
-  if (options.step && !(*options.step > 0)) refuse("step", *options.step, "must be positive, s");
-  return options;
-}
-
-// The explicit step asked for, or the largest stable one; refuses more.
-double explicit_step(const HeatModel& model, const TimeOptions& options) {
-  const StableStep stable = stable_step(model);
-  const double step = options.step.value_or(stable.step);
-  if (step > stable.step) {
-    throw InputError(problem("heat.step", fmt::format("{:g} s", step),
-                             fmt::format("must be at most the stable step of {:.6g} s, which node {} of block {} sets",
-                                         stable.step, stable.node.value(), model.blocks[stable.node].value()),
-                             "Leave the step out, or use the implicit integrator, which has no such limit"));
-  }
-  return step;
-}
 
 }  // namespace
 
@@ -77,7 +51,9 @@ class HeatRun::Implementation {
   }
 
   void resume(HeatState state) {
-    const bool fits = state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
+    const auto is_of_rows = [&](const StepEnd& end) { return end.temperature->size() == state_.temperature.size(); };
+    const bool fits = std::all_of(state.earlier.begin(), state.earlier.end(), is_of_rows) &&
+                      state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
                       state.lumping.carried.size() == state_.lumping.carried.size() &&
                       (state.matrix.temperature.size() == 0 || state.matrix.temperature.size() == state_.temperature.size()) &&
                       state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
@@ -91,16 +67,25 @@ class HeatRun::Implementation {
 
   void advance_to(double target, const Progress& progress) {
     SCREE_EXPECT(target >= state_.time);
-    while (state_.time < target) advance_within(target, progress);
+    while (state_.time < target) take_steps(next_span(target), progress);
   }
 
   void follow(const AtOutput& at_output, const Progress& progress) {
-    for (double output = next_output(options_, state_.time); state_.time < options_.until;) {
-      advance_within(options_.until, progress);
-      for (; output < state_.time; output = next_output(options_, output)) at_output(output, passed_at(output));
-      if (output != state_.time) continue;
-      at_output(output, state_.temperature);
+    const double close = on_grid * options_.output_every;
+    double output = next_output(options_, state_.time);
+    const auto tell = [&](const Eigen::VectorXd& temperature, bool resumable) {
+      at_output({output, temperature, resumable});
       output = next_output(options_, output);
+    };
+    while (state_.time < options_.until) {
+      const Span span = next_span(options_.until);
+      take_steps(span, [&](double time) {
+        while (output < span.end && output <= time + close) {
+          tell(output >= time - close ? state_.temperature : passed_at(output), false);
+        }
+        if (progress) progress(time);
+      });
+      if (output == span.end) tell(state_.temperature, true);
     }
   }
 
@@ -114,8 +99,14 @@ class HeatRun::Implementation {
  private:
   static constexpr auto largest = ErrorBudget::largest;
 
-  // Over one interval between outputs, over several where steps are that long, or up to `limit`.
-  void advance_within(double limit, const Progress& progress) {
+  // One interval between outputs, several if steps are that long, or what is left of one. A run can go on from its end.
+  struct Span {
+    double begin;   // [s]
+    double length;  // [s]
+    double end;     // [s]
+  };
+
+  [[nodiscard]] Span next_span(double limit) const {
     const double every = options_.output_every > 0 ? options_.output_every : std::max(options_.until, limit);
     const double nearest = std::round(state_.time / every);
     const bool at_output = std::abs(state_.time / every - nearest) <= on_grid;
@@ -126,12 +117,16 @@ class HeatRun::Implementation {
     const double end = whole ? next : limit;
     // A whole interval has the same length each time, not that of a difference of rounded times.
     const double length = at_output && whole ? count * every : end - begin;
+    return {begin, length, std::abs(end - limit) <= on_grid * every ? limit : end};
+  }
+
+  void take_steps(const Span& span, const Progress& progress) {
     if (options_.integrator == Integrator::explicit_euler) {
-      fixed_steps(begin, length, progress);
+      fixed_steps(span.begin, span.length, progress);
     } else {
-      chosen_steps(begin, length, progress);
+      chosen_steps(span.begin, span.length, progress);
     }
-    state_.time = std::abs(end - limit) <= on_grid * every ? limit : end;
+    state_.time = span.end;
   }
 
   // As many as one step takes, in powers of two that begin at multiples of themselves; the temperatures are to be smooth from
@@ -143,10 +138,16 @@ class HeatRun::Implementation {
     const auto fits = [&](double more) {
       return StepGrid(0, more * every, state_.next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
              (nearest + more) * every <= limit + on_grid * every &&
-             TimeBends::surely_none(model_, state_.earlier[earliest].time, (nearest + more) * every);
+             are_smooth(state_.earlier[earliest].time, (nearest + more) * every);
     };
     while (fits(2 * count)) count *= 2;
     return count;
+  }
+
+  [[nodiscard]] bool are_smooth(double begin, double end) const {
+    if (!drives_.vary()) return true;
+    const TimeBends bends(model_, begin, end);
+    return bends.jumps().empty() && !bends.any_between(begin, end);
   }
 
   // Each stretch between two jumps has steps of its own, which know nothing of these.
@@ -223,10 +224,14 @@ class HeatRun::Implementation {
     }
   }
 
+  [[nodiscard]] bool passes_outputs(const StepGrid& grid) const {
+    return options_.output_every > 0 && grid.step() > 1.5 * options_.output_every;
+  }
+
   // At the outputs that the step passes which the grid is at [K]; 0 if there are none.
   [[nodiscard]] double error_of_passed(const Step& step, const StepEnd& start, const StepGrid& grid) const {
+    if (!passes_outputs(grid)) return 0;
     const double every = options_.output_every, end = start.time + grid.step();
-    if (every <= 0 || grid.step() < 1.5 * every) return 0;
     StepEnds before = state_.earlier;
     before.insert(before.begin(), start);
     return BetweenSteps(end, *start.temperature + step.change, before).error(start.time + every, end - 0.5 * every, every);
@@ -251,9 +256,11 @@ class HeatRun::Implementation {
     return grid.level() < StepGrid::max_level && bends.most_between(grid.time(), grid.time() + grid.step()) > seen;
   }
 
-  // What the scheme's own estimate of a step does not see of jumps within it [K]; nothing if there are none.
+  // What the scheme's own estimate of a step does not see of bends within it [K]; nothing if there are none. A step that passes
+  // outputs is so long that what bends more gently is looked at, too.
   [[nodiscard]] std::optional<DriveDefect> missed_in(const StepGrid& grid, const TimeBends& bends) const {
-    if (!bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
+    const bool long_one = drives_.vary() && passes_outputs(grid);
+    if (!long_one && !bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
     return drive_defect(model_, scheme_.scheme->drive_quadrature(grid.step()), grid.time(), grid.step(), state_.temperature,
                         capacity_at(model_, state_.temperature));
   }
@@ -345,11 +352,6 @@ void TemperatureRange::include(const Eigen::VectorXd& temperatures) {
   if (temperatures.size() == 0) return;
   least = std::min(least, temperatures.minCoeff());
   largest = std::max(largest, temperatures.maxCoeff());
-}
-
-double next_output(const TimeOptions& options, double time) {
-  const double next = (std::floor(time / options.output_every + on_grid) + 1) * options.output_every;
-  return std::min(next, options.until);
 }
 
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {

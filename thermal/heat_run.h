@@ -62,9 +62,6 @@ struct HeatState {
   StepEnds earlier;
 };
 
-// The first output time after `time`: a multiple of the output interval, or the end [s].
-double next_output(const TimeOptions& options, double time);
-
 // By how much the temperatures ever left the range of those that the heat comes from [K]: conduction cannot, so this is what
 // the mesh and the step make of a sudden start. Nothing where heat is applied: then they may.
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state);
@@ -87,9 +84,14 @@ class HeatRun {
   // steps tells the temperatures there within the tolerance (between_steps.h).
   void advance_to(double time, const Progress& progress = {});
 
-  // To the end. `at_output` is told each output time from now on, the present not included, and the temperatures then. Where
-  // they are the state's the run can go on from it without an output being missed: no step passes others before.
-  using AtOutput = std::function<void(double, const Eigen::VectorXd&)>;
+  struct Output {
+    double time;  // [s]
+    const Eigen::VectorXd& temperature;
+    // Whether it is that of state(), from which another run would go on and repeat this one to the bit.
+    bool resumable;
+  };
+  // To the end. `at_output` is told each output from now on, the present not included.
+  using AtOutput = std::function<void(const Output&)>;
   void follow(const AtOutput& at_output, const Progress& progress = {});
 
   [[nodiscard]] const HeatState& state() const;

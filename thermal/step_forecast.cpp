@@ -58,8 +58,9 @@ void add(const EqualSteps& steps, double stable, StepForecast& forecast) {
 StepTimes step_times(const TimeOptions& options, bool changes_in_time) {
   const double every = options.output_every;
   if (every <= 0 || every >= options.until) return {options.until, options.until};
-  const double intervals = changes_in_time ? 1 : std::exp2(std::floor(std::log2(options.until / every)));
-  return {options.until, intervals * every};
+  const double part = changes_in_time ? 1.0 / 64 : 1;
+  const double intervals = std::exp2(std::floor(std::log2(part * options.until / every)));
+  return {options.until, std::max(1.0, intervals) * every};
 }
 
 StepForecast forecast_steps(double stable, const StepTimes& times) {

@@ -18,8 +18,8 @@ struct StepTimes {
   double longest = 0;
 };
 
-// Where nothing changes in time steps pass output times, as HeatRun says: the longest is a power of two of their intervals.
-// Else it is one interval, as steps end where what changes may bend.
+// Steps pass output times: the longest is a power of two of their intervals, and the whole run if that is smooth. What changes
+// in time makes them shorter; they are taken to be a 64th of the run then, or one interval.
 StepTimes step_times(const TimeOptions& options, bool changes_in_time);
 
 // `stable`: stable_step() of the model [s], infinite if nothing conducts.

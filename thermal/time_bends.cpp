@@ -166,12 +166,4 @@ bool TimeBends::any_between(double begin, double end) const {
                      [&](const Seen& seen) { return count_between(seen.times, begin - seen.step, end + seen.step) > 0; });
 }
 
-bool TimeBends::surely_none(const HeatModel& model, double begin, double end) {
-  bool none = true;
-  for_each_change(model, [&](const Function& function, const auto&) {
-    none = none && function.bends_between(begin, end).value_or(1) == 0;
-  });
-  return none;
-}
-
 }  // namespace scree::thermal

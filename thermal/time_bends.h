@@ -30,9 +30,6 @@ class TimeBends {
   // Whether any may lie between the two times: those of a formula are known to a step in time.
   [[nodiscard]] bool any_between(double begin, double end) const;
 
-  // Whether it is known that there are none, which no look at a formula tells.
-  static bool surely_none(const HeatModel& model, double begin, double end);
-
  private:
   // Of a formula at one place.
   struct Seen {

@@ -128,9 +128,10 @@ TEST(StepMix, LeavesNoStepExplicitThatCostsMoreThanItsSolvesWhereAnyLengthMayLas
   EXPECT_EQ(cheapest_mix(1, {51200, 3200}, {1, use_of_linear_steps, true}, solver).longest_short, 100);
 }
 
-TEST(StepForecast, TakesStepsThatPassAPowerOfTwoOfOutputsWhereNothingChangesInTime) {
+TEST(StepForecast, TakesStepsThatPassAPowerOfTwoOfOutputs) {
   EXPECT_EQ(step_times(times(43200, 600), false).longest, 64 * 600);
   EXPECT_EQ(step_times(times(43200, 600), true).longest, 600);
+  EXPECT_EQ(step_times(times(43200, 60), true).longest, 8 * 60) << "675 s at most";
   EXPECT_EQ(step_times(times(1000, 600), false).longest, 600);
   EXPECT_EQ(step_times(times(500, 600), true).longest, 500);
   EXPECT_EQ(step_times(times(500, 0), true).longest, 500);

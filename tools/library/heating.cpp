@@ -54,11 +54,11 @@ void Heating<dim>::advance_to(double time, const Progress& progress) {
 template <int dim>
 void Heating<dim>::follow(const AtOutput& at_output, const Progress& progress) {
   check_it_goes_on();
-  const auto read_probes = [&](double time, const Eigen::VectorXd& of_rows) {
-    const Eigen::VectorXd of_nodes = model_->rows.to_nodes(of_rows);
+  const auto read_probes = [&](const thermal::HeatRun::Output& output) {
+    const Eigen::VectorXd of_nodes = model_->rows.to_nodes(output.temperature);
     std::vector<double> values;
     for (const auto& probe : pile_.probes) values.push_back(output::value_at(probe, of_nodes));
-    at_output(time, values);
+    at_output(output.time, values);
   };
   run_->follow(read_probes, progress);
 }

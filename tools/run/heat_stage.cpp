@@ -40,8 +40,8 @@ template <int dim>
 void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& recorder) {
   const double until = context.scene.heat->time.until;
   thermal::WorkDone work = run.work_done();
-  const auto at_output = [&](double time, const Eigen::VectorXd& temperature) {
-    time == run.state().time ? recorder.record(run.state()) : recorder.record_passed(time, temperature);
+  const auto at_output = [&](const thermal::HeatRun::Output& output) {
+    output.resumable ? recorder.record(run.state()) : recorder.record_passed(output.time, output.temperature);
   };
   run.follow(at_output, [&](double time) {
     check_interrupt();
