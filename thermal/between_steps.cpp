@@ -7,6 +7,14 @@
 
 namespace scree::thermal {
 
+StepEnds followed_by(const StepEnd& latest, const StepEnds& earlier) {
+  if (!latest.temperature) return {};
+  StepEnds ends{latest};
+  ends.insert(ends.end(), earlier.begin(), earlier.end());
+  ends.resize(std::min(ends.size(), BetweenSteps::ends_before));
+  return ends;
+}
+
 BetweenSteps::BetweenSteps(double time, const Eigen::VectorXd& temperature, const StepEnds& before)
     : times_{time}, temperatures_{&temperature} {
   SCREE_EXPECT(before.size() >= ends_before);

@@ -8,6 +8,7 @@
 // rate is what is left of an error, times thousands a second.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct StepEnd {
   std::shared_ptr<const Eigen::VectorXd> temperature;  // one per row of the model [K]
 };
 using StepEnds = std::vector<StepEnd>;  // the latest first
+
+// The ends that are remembered with a later one: none without its temperatures.
+StepEnds followed_by(const StepEnd& latest, const StepEnds& earlier);
 
 class BetweenSteps {
  public:

@@ -204,8 +204,8 @@ class HeatRun::Implementation {
         grid.refine();
         continue;
       }
-      const StepEnd start{grid.time(), std::make_shared<const Eigen::VectorXd>(state_.temperature)};
-      const double between = error_of_passed(step, start, grid);
+      const StepEnds ends = followed_by(start_of(grid), state_.earlier);
+      const double between = error_of_passed(step, ends, grid);
       if (between > budget_.of_passed(step.error)) {
         ++state_.rejected_steps;
         grid.refine();
@@ -219,7 +219,7 @@ class HeatRun::Implementation {
         if (!grid.done() && !grid.coarsen()) break;
         state_.next_step *= 2;
       }
-      remember(start, dt);
+      state_.earlier = ends;
       accept(step, dt, grid.time(), between, progress);
     }
   }
@@ -229,19 +229,17 @@ class HeatRun::Implementation {
   }
 
   // At the outputs that the step passes which the grid is at [K]; 0 if there are none.
-  [[nodiscard]] double error_of_passed(const Step& step, const StepEnd& start, const StepGrid& grid) const {
+  [[nodiscard]] double error_of_passed(const Step& step, const StepEnds& ends, const StepGrid& grid) const {
     if (!passes_outputs(grid)) return 0;
-    const double every = options_.output_every, end = start.time + grid.step();
-    StepEnds before = state_.earlier;
-    before.insert(before.begin(), start);
-    return BetweenSteps(end, *start.temperature + step.change, before).error(start.time + every, end - 0.5 * every, every);
+    const double every = options_.output_every, end = grid.time() + grid.step();
+    return BetweenSteps(end, state_.temperature + step.change, ends).error(grid.time() + every, end - 0.5 * every, every);
   }
 
-  void remember(const StepEnd& start, double length) {
-    StepEnds& ends = state_.earlier;
-    if (length < least_remembered * options_.output_every) return ends.clear();
-    ends.insert(ends.begin(), start);
-    ends.resize(std::min(ends.size(), BetweenSteps::ends_before));
+  // Without temperatures if no output that a step passes will ask for them.
+  [[nodiscard]] StepEnd start_of(const StepGrid& grid) const {
+    const double every = options_.output_every;
+    const bool may_serve = every > 0 && every < options_.until && grid.step() >= least_remembered * every;
+    return {grid.time(), may_serve ? std::make_shared<const Eigen::VectorXd>(state_.temperature) : nullptr};
   }
 
   // At an output that the last step passed.

@@ -181,6 +181,15 @@ TEST_P(PassedOutputs, AreWithinTheTimeErrorWhereAFormulaBends) {
   }
 }
 
+TEST(Outputs, MakeARunKeepNoEndsOfStepsWhereNoneIsPassed) {
+  const HeatModel model = heated_pair(400, 1);
+  HeatRun one(model, two_hours(7200)), many(model, two_hours(20));
+  follow(one);
+  follow(many);
+  EXPECT_TRUE(one.state().earlier.empty());
+  EXPECT_EQ(many.state().earlier.size(), 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, PassedOutputs, ::testing::Values(Integrator::implicit, Integrator::stabilised_explicit),
                          [](const auto& of) { return of.param == Integrator::implicit ? "implicit" : "stabilised"; });
 
