@@ -172,6 +172,8 @@ TEST(SceneErrors, BlocksAreLumpedByKnownModelsInBodiesOfTheScene) {
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: lumped, largest_biot: 0.1}"}),
             "--set heat.blocks: heat.blocks.largest_biot is 0.1 (decides nothing where no block is auto). Take it out, or set "
             "heat.blocks.model to auto");
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks=auto"}), "--set heat.blocks: heat.blocks is auto (must be a map of keys)")
+      << "and nothing of what is in it";
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: auto, largest_biot: -0.1}"}),
             "--set heat.blocks: heat.blocks.largest_biot is -0.1 (must be not negative). Did you mean 0.1?");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={bodies: {blok: lumped}}"}),

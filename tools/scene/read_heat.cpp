@@ -194,7 +194,7 @@ thermal::BlockOptions read_blocks(const Checked& heat, const Names& names, Probl
                              std::any_of(options.of_body.begin(), options.of_body.end(), is_automatic);
   // A scene with its defaults filled in may be read again.
   const bool own_limit = options.largest_biot != thermal::BlockOptions{}.largest_biot;
-  if (const Checked& biot = blocks->at("largest_biot"); own_limit && !any_automatic) {
+  if (const Checked& biot = blocks->at("largest_biot"); biot.sound && own_limit && !any_automatic) {
     problems.push_back(biot.problem(fmt::format("{:g}", biot.number()), "decides nothing where no block is auto",
                                     "Take it out, or set heat.blocks.model to auto"));
   }
