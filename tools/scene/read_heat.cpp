@@ -131,7 +131,7 @@ Table<BodyId, Function> read_initial(const Checked& initial, const Names& names,
   const bool by_body =
       initial.is_map && (initial.entries.empty() || initial.entries.front().value.key->path == "heat.initial.*");
   if (by_body) return read_bodies_initial(initial, names, problems);
-  return Table<BodyId, Function>(names.bodies.size(), read_start(initial, problems));
+  return {names.bodies.size(), read_start(initial, problems)};
 }
 
 auto functions_of(const thermal::FixedTemperature& c) {
