@@ -24,30 +24,31 @@ BetweenSteps::BetweenSteps(double time, const Eigen::VectorXd& temperature, cons
   }
 }
 
-Eigen::VectorXd BetweenSteps::at(double time) const {
-  Four weights;  // Lagrange's
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = 1;
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-      if (j != i) weights[i] *= (time - times_[j]) / (times_[i] - times_[j]);
+// Of each end, the product of factor(its time, time of another) over the three others.
+template <class Factor>
+BetweenSteps::Four BetweenSteps::products(const Factor& factor) const {
+  Four products;
+  for (std::size_t i = 0; i < products.size(); ++i) {
+    products[i] = 1;
+    for (std::size_t j = 0; j < products.size(); ++j) {
+      if (j != i) products[i] *= factor(times_[i], times_[j]);
     }
   }
-  return weighted(weights);
+  return products;
+}
+
+// Lagrange's form.
+Eigen::VectorXd BetweenSteps::at(double time) const {
+  return weighted(products([&](double own, double other) { return (time - other) / (own - other); }));
 }
 
 double BetweenSteps::error(double first, double last, double every) const {
-  Four weights;  // of D
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = 1;
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-      if (j != i) weights[i] /= times_[i] - times_[j];
-    }
-  }
+  const Four of_difference = products([](double own, double other) { return 1 / (own - other); });
   double farthest = 0;
   for (double time = first; time <= last; time += every) {
     farthest = std::max(farthest, std::abs((time - times_[0]) * (time - times_[1]) * (time - times_[2])));
   }
-  return farthest * weighted(weights).lpNorm<Eigen::Infinity>();
+  return farthest * weighted(of_difference).lpNorm<Eigen::Infinity>();
 }
 
 Eigen::VectorXd BetweenSteps::weighted(const Four& weights) const {

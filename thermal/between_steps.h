@@ -40,6 +40,8 @@ class BetweenSteps {
 
  private:
   using Four = std::array<double, ends_before + 1>;
+  template <class Factor>
+  [[nodiscard]] Four products(const Factor& factor) const;
   [[nodiscard]] Eigen::VectorXd weighted(const Four& weights) const;
 
   Four times_;

@@ -31,8 +31,8 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // At an output from whose state the run can go on. Its frame and those passed before are written beside
-  // the computation; what goes wrong there is thrown by the next record() after it or by finish().
+  // At an output from whose state the run can go on. Its frame and those passed before are written beside the computation;
+  // what goes wrong there is thrown by the next record() after it or by finish().
   void record(const thermal::HeatState& state);
   // At another.
   void record_passed(double time, const Eigen::VectorXd& temperature);
