@@ -15,16 +15,16 @@ namespace {
 template <class Collision>
 class Create final : public btCollisionAlgorithmCreateFunc {
  public:
-  explicit Create(const ContactRanges& ranges) : ranges_(ranges) {}
-  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                 const btCollisionObjectWrapper* first,
-                                                 const btCollisionObjectWrapper* second) override {
+  Create(const ContactRanges& ranges, HeldContacts& contacts) : ranges_(ranges), contacts_(contacts) {}
+  btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper*,
+                                                 const btCollisionObjectWrapper*) override {
     void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Collision));
-    return new (memory) Collision(info, ranges_, first, second);
+    return new (memory) Collision(info, ranges_, contacts_);
   }
 
  private:
   ContactRanges ranges_;
+  HeldContacts& contacts_;
 };
 
 btDefaultCollisionConstructionInfo pools(int blocks) {
@@ -32,16 +32,16 @@ btDefaultCollisionConstructionInfo pools(int blocks) {
   // The pool takes any size in a release build without asking whether it fits; its elements must be told how large we are.
   info.m_customCollisionAlgorithmMaxElementSize = std::max(sizeof(PolyhedronCollision), sizeof(CompoundCollision));
   info.m_defaultMaxCollisionAlgorithmPoolSize = std::max(4096, 16 * blocks);
-  info.m_defaultMaxPersistentManifoldPoolSize = std::max(4096, 4 * blocks);
+  info.m_defaultMaxPersistentManifoldPoolSize = 1;  // none is used (held_contacts.h)
   return info;
 }
 
 }  // namespace
 
-CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, int blocks)
+CollisionConfiguration::CollisionConfiguration(const ContactRanges& ranges, HeldContacts& contacts, int blocks)
     : btDefaultCollisionConfiguration(pools(blocks)),
-      of_polyhedra_(std::make_unique<Create<PolyhedronCollision>>(ranges)),
-      of_compounds_(std::make_unique<Create<CompoundCollision>>(ranges)) {}
+      of_polyhedra_(std::make_unique<Create<PolyhedronCollision>>(ranges, contacts)),
+      of_compounds_(std::make_unique<Create<CompoundCollision>>(ranges, contacts)) {}
 
 btCollisionAlgorithmCreateFunc* CollisionConfiguration::getCollisionAlgorithmCreateFunc(int first_type, int second_type) {
   const auto ours = [](int type) { return type == CUSTOM_CONVEX_SHAPE_TYPE || type == COMPOUND_SHAPE_PROXYTYPE; };

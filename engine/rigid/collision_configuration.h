@@ -13,7 +13,7 @@ namespace scree::rigid {
 // Ours for polyhedra and blocks of several; there are no others in our worlds.
 class CollisionConfiguration final : public btDefaultCollisionConfiguration {
  public:
-  CollisionConfiguration(const ContactRanges& ranges, int blocks);
+  CollisionConfiguration(const ContactRanges& ranges, HeldContacts& contacts, int blocks);
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int first_type, int second_type) override;
 
  private:

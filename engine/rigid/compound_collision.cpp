@@ -2,7 +2,6 @@
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 
 #include <algorithm>
@@ -17,45 +16,41 @@ namespace {
 
 using Numbers = std::array<int, 2>;
 
-const btCompoundShape* compound_of(const btCollisionObjectWrapper& block) {
-  const btCollisionShape* shape = block.getCollisionShape();
-  return shape->isCompound() ? static_cast<const btCompoundShape*>(shape) : nullptr;
+// Only of a block of several pieces.
+const btCompoundShape& compound_of(const BlockMotion& block) {
+  return static_cast<const btCompoundShape&>(*block.body->getCollisionShape());
 }
 
-const btCollisionShape* piece_of(const btCollisionObjectWrapper& block, int number) {
-  const btCompoundShape* compound = compound_of(block);
-  return compound == nullptr ? block.getCollisionShape() : compound->getChildShape(number);
+// All pieces have the block's frame.
+Side piece_of(const BlockMotion& block, int number) {
+  if (block.piece != nullptr) return whole(block);
+  const auto& piece = static_cast<const PolyhedronShape&>(*compound_of(block).getChildShape(number));
+  return {&block, &piece, piece.radius()};
 }
 
-btCollisionObjectWrapper wrapped_piece(const btCollisionObjectWrapper& block, int number) {
-  return {&block, piece_of(block, number), block.getCollisionObject(), block.getWorldTransform(), -1, number};
-}
-
-// The numbers of a block's pieces whose boxes, in the block's frame, meet a box in that frame. All pieces have the block's
-// frame.
-std::vector<int> pieces_in(const btCollisionObjectWrapper& block, const btVector3& low, const btVector3& high) {
+// The numbers of a block's pieces whose boxes, in the block's frame, meet a box in that frame.
+std::vector<int> pieces_in(const BlockMotion& block, const btVector3& low, const btVector3& high) {
   struct Found final : btDbvt::ICollide {
     std::vector<int> numbers;
     void Process(const btDbvtNode* leaf) override { numbers.push_back(leaf->dataAsInt); }
   };
-  const btCompoundShape* compound = compound_of(block);
-  if (compound == nullptr) return {0};
+  if (block.piece != nullptr) return {0};
   Found found;
-  const btDbvt& tree = *compound->getDynamicAabbTree();
+  const btDbvt& tree = *compound_of(block).getDynamicAabbTree();
   tree.collideTV(tree.m_root, btDbvtVolume::FromMM(low, high), found);
   return found.numbers;
 }
 
 // All pairs of pieces of which no point may come nearer than `reach` but these, ascending.
-std::vector<Numbers> near_pieces(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double reach) {
-  const btTransform to_first = first.getWorldTransform().inverseTimes(second.getWorldTransform());
+std::vector<Numbers> near_pieces(const BlockMotion& first, const BlockMotion& second, double reach) {
+  const btTransform to_first = first.pose.inverseTimes(second.pose);
   const btVector3 around(reach, reach, reach);
   btVector3 low, high;
-  first.getCollisionShape()->getAabb(to_first.inverse(), low, high);
+  first.body->getCollisionShape()->getAabb(to_first.inverse(), low, high);
   std::vector<Numbers> near;
   for (const int of_second : pieces_in(second, low - around, high + around)) {
     btVector3 piece_low, piece_high;
-    piece_of(second, of_second)->getAabb(to_first, piece_low, piece_high);
+    piece_of(second, of_second).piece->getAabb(to_first, piece_low, piece_high);
     for (const int of_first : pieces_in(first, piece_low - around, piece_high + around)) near.push_back({of_first, of_second});
   }
   std::sort(near.begin(), near.end());
@@ -64,39 +59,31 @@ std::vector<Numbers> near_pieces(const btCollisionObjectWrapper& first, const bt
 
 }  // namespace
 
-void CompoundCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                                         const btDispatcherInfo& info, btManifoldResult*) {
-  look(*first, *second, info.m_timeStep);
-  claim(first->getCollisionObject(), second->getCollisionObject());
-  take(*first, *second, info.m_timeStep);
-}
-
-void CompoundCollision::look(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double time_step) {
-  keep(near_pieces(first, second, reach_of(ranges_, first, second, time_step)), first, second);
+void CompoundCollision::look(const BlockMotion& first, const BlockMotion& second, double time_step) {
+  keep(near_pieces(first, second, reach_of(ranges_, whole(first), whole(second), time_step)));
   for (Pieces& pair : pieces_) {
-    const auto of_first = wrapped_piece(first, pair.numbers[0]), of_second = wrapped_piece(second, pair.numbers[1]);
+    const Side of_first = piece_of(first, pair.numbers[0]), of_second = piece_of(second, pair.numbers[1]);
     pair.news = pair.collision->look(pair.collision->pair_of(of_first, of_second, time_step));
   }
 }
 
-void CompoundCollision::claim(const btCollisionObject* first, const btCollisionObject* second) {
+void CompoundCollision::claim(const BlockMotion& first, const BlockMotion& second) {
   dropped_.clear();
   for (const Pieces& pair : pieces_) {
     if (pair.news) pair.collision->claim(first, second, *pair.news);
   }
 }
 
-void CompoundCollision::take(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second, double time_step) {
+void CompoundCollision::take(const BlockMotion& first, const BlockMotion& second, double time_step) {
   for (const Pieces& pair : pieces_) {
     if (!pair.news) continue;
-    const auto of_first = wrapped_piece(first, pair.numbers[0]), of_second = wrapped_piece(second, pair.numbers[1]);
+    const Side of_first = piece_of(first, pair.numbers[0]), of_second = piece_of(second, pair.numbers[1]);
     pair.collision->take(pair.collision->pair_of(of_first, of_second, time_step), *pair.news);
   }
 }
 
 // Pairs that stay near keep their contacts.
-void CompoundCollision::keep(const std::vector<Numbers>& near, const btCollisionObjectWrapper& first,
-                             const btCollisionObjectWrapper& second) {
+void CompoundCollision::keep(const std::vector<Numbers>& near) {
   std::vector<Pieces> kept;
   kept.reserve(near.size());
   auto old = pieces_.begin();
@@ -109,16 +96,12 @@ void CompoundCollision::keep(const std::vector<Numbers>& near, const btCollision
       kept.push_back(std::move(*old++));
     } else {
       btCollisionAlgorithmConstructionInfo info(m_dispatcher, 1);
-      kept.push_back({numbers, std::make_unique<PolyhedronCollision>(info, ranges_, &first, &second)});
+      kept.push_back({numbers, std::make_unique<PolyhedronCollision>(info, ranges_, contacts_)});
       kept.back().collision->ask_for_surfaces();
     }
   }
   drop_before({std::numeric_limits<int>::max(), 0});
   pieces_ = std::move(kept);
-}
-
-void CompoundCollision::getAllContactManifolds(btManifoldArray& manifolds) {
-  for (const Pieces& pair : pieces_) pair.collision->getAllContactManifolds(manifolds);
 }
 
 }  // namespace scree::rigid

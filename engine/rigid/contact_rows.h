@@ -10,11 +10,12 @@
 
 namespace scree::rigid {
 
-// A body's change of velocity in this step, or the one that only undoes overlaps.
-struct BodyChange {
+// A body's change of velocity in this step, or the one that only undoes overlaps. One line of memory.
+struct alignas(64) BodyChange {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   // [m/s]
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // [1/s]
   double inverse_mass = 0;                            // [1/kg]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  // [1/s]
+  double unused = 0;
 };
 
 // One impulse along one direction between two bodies: the second gets its reverse.

@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <LinearMath/btTransformUtil.h>
 
 #include "engine/base/phases.h"
@@ -30,51 +29,51 @@ int slabs_for(std::size_t bodies) {
   return slabs;
 }
 
-ContactSolver::Touch touch_of(const btPersistentManifold& manifold) {
-  ContactSolver::Touch touch{{manifold.getBody0()->getUserIndex(), manifold.getBody1()->getUserIndex()}};
-  btVector3 impulse(0, 0, 0);
-  for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    const btManifoldPoint& point = manifold.getContactPoint(i);
-    impulse += point.m_appliedImpulse * point.m_normalWorldOnB + point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-               point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-    touch.depth = std::max(touch.depth, -point.m_distance1);
+ContactSolver::Touch touch_of(const HeldContact& contact) {
+  ContactSolver::Touch touch{contact.blocks};
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  // along the axes of the contact, which all its points have
+  for (const HeldPoint& point : std::span(contact.points).first(contact.count)) {
+    impulse += Eigen::Map<const Eigen::Vector3d>(point.impulses.data());
+    touch.depth = std::max(touch.depth, -point.distance);
   }
-  touch.impulse = impulse.length();
-  touch.of = &manifold;
+  touch.impulse = impulse.norm();
+  touch.of = &contact;
   return touch;
 }
 
 }  // namespace
 
-void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Manifolds manifolds,
+void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Motions motions, Contacts contacts,
                           const StepLengths& step, int iterations) {
-  start(bodies, sleepers, step.time_step);
-  sort(manifolds);
-  set_up(manifolds, step);
+  start(bodies, sleepers, motions.size(), step.time_step);
+  sort(contacts);
+  set_up(motions, contacts, step);
   solve_rows(iterations);
-  finish(bodies, manifolds);
+  finish(bodies, contacts);
   undo_overlaps(bodies, step, iterations);
 }
 
-void ContactSolver::start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, double time_step) {
+void ContactSolver::start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, std::size_t blocks,
+                          double time_step) {
+  places_.assign(blocks, -1);
   starts_.resize(bodies.size());
   changes_.assign(bodies.size(), {});
   for_short_chunks(bodies.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      bodies[i]->setCompanionId(static_cast<int>(i));
+      places_[bodies[i]->getUserIndex()] = static_cast<int>(i);
       starts_[i] = sleepers.asleep(bodies[i]->getUserIndex()) ? start_asleep(*bodies[i]) : start_of(*bodies[i], time_step);
       changes_[i].inverse_mass = starts_[i].inverse_mass;
     }
   });
 }
 
-void ContactSolver::sort(Manifolds manifolds) {
-  entries_.resize(manifolds.size());
+void ContactSolver::sort(Contacts contacts) {
+  entries_.resize(contacts.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       Entry& entry = entries_[i];
-      entry.ids = {manifolds[i]->getBody0()->getCompanionId(), manifolds[i]->getBody1()->getCompanionId()};
-      entry.count = moves(entry.ids) ? manifolds[i]->getNumContacts() : 0;
+      entry.ids = {places_[contacts[i]->blocks[0]], places_[contacts[i]->blocks[1]]};
+      entry.count = moves(entry.ids) ? contacts[i]->count : 0;
     }
   });
   int slabs = slabs_for(starts_.size());
@@ -107,18 +106,22 @@ bool ContactSolver::order_rows(int slabs) {
   return true;
 }
 
-void ContactSolver::set_up(Manifolds manifolds, const StepLengths& step) {
+void ContactSolver::set_up(Motions motions, Contacts contacts, const StepLengths& step) {
   rows_.resize(batches_.ends.back());
   overlaps_.resize(rows_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const Entry& entry = entries_[i];
+      if (entry.count == 0) continue;
+      HeldContact& contact = *contacts[i];
+      const PlacedContact placed = place(contact, motions[contact.blocks[0]].pose, motions[contact.blocks[1]].pose);
       const auto start_of_body = [&](int id) { return id < 0 ? nullptr : &starts_[id]; };
       const std::array<const BodyStart*, 2> bodies{start_of_body(entry.ids[0]), start_of_body(entry.ids[1])};
       for (int k = 0; k < entry.count; ++k) {
-        const btManifoldPoint& point = manifolds[i]->getContactPoint(k);
-        ContactRow& row = rows_[entry.rows[k]] = contact_row(point, bodies, entry.ids, step);
-        overlaps_[entry.rows[k]] = overlap_impulse(point, row.normal, step);
+        ContactRow& row = rows_[entry.rows[k]];
+        row.bodies = entry.ids;
+        set_up_row(row, contact, placed, k, bodies, step);
+        overlaps_[entry.rows[k]] = overlap_impulse(contact.points[k], row.normal, step);
       }
     }
   });
@@ -130,10 +133,9 @@ void ContactSolver::solve_rows(int iterations) {
   for_batches(batches_, iterations, [&](std::size_t begin, std::size_t end) { solve_contacts(part(begin, end), changes_); });
 }
 
-void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds) {
+void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Contacts contacts) {
   for_short_chunks(bodies.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      bodies[i]->setCompanionId(-1);
       if (!moves({static_cast<int>(i), -1})) continue;
       bodies[i]->setLinearVelocity(to_bullet(starts_[i].linear + changes_[i].linear));
       bodies[i]->setAngularVelocity(to_bullet(starts_[i].angular + changes_[i].angular));
@@ -142,15 +144,13 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Manifolds ma
   touches_.resize(entries_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      if (!moves(entries_[i].ids) && touches_[i].of == manifolds[i]) continue;
+      HeldContact& contact = *contacts[i];
+      if (!moves(entries_[i].ids) && touches_[i].of == &contact) continue;
       for (int k = 0; k < entries_[i].count; ++k) {
         const ContactRow& row = rows_[entries_[i].rows[k]];
-        btManifoldPoint& point = manifolds[i]->getContactPoint(k);
-        point.m_appliedImpulse = row.normal.applied;
-        point.m_appliedImpulseLateral1 = row.friction[0].applied;
-        point.m_appliedImpulseLateral2 = row.friction[1].applied;
+        contact.points[k].impulses = {row.normal.applied, row.friction[0].applied, row.friction[1].applied};
       }
-      touches_[i] = touch_of(*manifolds[i]);
+      touches_[i] = touch_of(contact);
     }
   });
 }

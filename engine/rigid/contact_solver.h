@@ -8,34 +8,35 @@
 #include <vector>
 
 #include "engine/rigid/contact_rows.h"
+#include "engine/rigid/held_contacts.h"
 #include "engine/rigid/row_batches.h"
 #include "engine/rigid/row_setup.h"
 #include "engine/rigid/sleepers.h"
 
-class btPersistentManifold;
 class btRigidBody;
 
 namespace scree::rigid {
 
 class ContactSolver {
  public:
-  using Manifolds = std::span<btPersistentManifold* const>;
+  using Contacts = std::span<HeldContact* const>;
+  using Motions = std::span<const BlockMotion>;
 
   // A pair of blocks that touch.
   struct Touch {
     std::array<int, 2> blocks{-1, -1};
     double impulse = 0;  // of the last step, magnitude [N s]
     double depth = 0;    // of the deepest overlap as the step began, 0 if there is none [m]
-    const btPersistentManifold* of = nullptr;
+    const HeldContact* of = nullptr;
   };
 
-  // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other bodies of
-  // the manifolds are fixed, and so are those that sleep. The same bits for any number of threads. The bodies' user indices are
-  // their blocks.
-  void solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Manifolds manifolds, const StepLengths& step,
-             int iterations);
+  // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other blocks are
+  // fixed, and so are those that sleep. The same bits for any number of threads. `motions` are those of all blocks; the bodies'
+  // user indices are their blocks.
+  void solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Motions motions, Contacts contacts,
+             const StepLengths& step, int iterations);
 
-  // Of the last step, one per manifold.
+  // Of the last step, one per contact.
   [[nodiscard]] std::span<const Touch> touches() const { return touches_; }
 
  private:
@@ -45,23 +46,24 @@ class ContactSolver {
     int batch = 0;
     std::array<int, 4> rows;  // of its points
   };
-  void start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, double time_step);
+  void start(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, std::size_t blocks, double time_step);
   // Whether any of them, by their places among the bodies, does; -1: fixed.
   [[nodiscard]] bool moves(const std::array<int, 2>& ids) const {
     return std::any_of(ids.begin(), ids.end(), [&](int id) { return id >= 0 && starts_[id].inverse_mass > 0; });
   }
-  void sort(Manifolds manifolds);
+  void sort(Contacts contacts);
   bool order_rows(int slabs);
-  void set_up(Manifolds manifolds, const StepLengths& step);
+  void set_up(Motions motions, Contacts contacts, const StepLengths& step);
   void solve_rows(int iterations);
   Batches gather_overlaps();
   void undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations);
-  void finish(const std::vector<btRigidBody*>& bodies, Manifolds manifolds);
+  void finish(const std::vector<btRigidBody*>& bodies, Contacts contacts);
 
   // Kept from step to step for their memory.
+  std::vector<int> places_;  // of each block's body among the bodies; -1: fixed
   std::vector<BodyStart> starts_;
   std::vector<BodyChange> changes_;
-  std::vector<Entry> entries_;            // one per manifold
+  std::vector<Entry> entries_;            // one per contact
   std::vector<Touch> touches_;            // likewise
   std::vector<ContactRow> rows_;          // by batches
   std::vector<double> overlaps_;          // one per row, see overlap_impulse

@@ -15,23 +15,13 @@ namespace scree::rigid {
 
 namespace {
 
-// The two bodies of a pair as Bullet's algorithms take them.
-struct WrappedPair {
-  explicit WrappedPair(const btBroadphasePair& pair) : first(wrap(pair.m_pProxy0)), second(wrap(pair.m_pProxy1)) {}
-  [[nodiscard]] bool of_polyhedra() const {
-    return first.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE &&
-           second.getCollisionShape()->getShapeType() == CUSTOM_CONVEX_SHAPE_TYPE;
-  }
+const btCollisionObject& object_of(const btBroadphaseProxy* proxy) {
+  return *static_cast<const btCollisionObject*>(proxy->m_clientObject);
+}
 
-  btCollisionObjectWrapper first;
-  btCollisionObjectWrapper second;
-
- private:
-  static btCollisionObjectWrapper wrap(const btBroadphaseProxy* proxy) {
-    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-    return {nullptr, object->getCollisionShape(), object, object->getWorldTransform(), -1, -1};
-  }
-};
+btCollisionObjectWrapper wrapped(const btCollisionObject& object) {
+  return {nullptr, object.getCollisionShape(), &object, object.getWorldTransform(), -1, -1};
+}
 
 PolyhedronCollision& algorithm_of(const btBroadphasePair& pair) {
   return static_cast<PolyhedronCollision&>(*pair.m_algorithm);
@@ -42,7 +32,7 @@ CompoundCollision& compound_algorithm_of(const btBroadphasePair& pair) {
 }
 
 int block_of(const btBroadphaseProxy* proxy) {
-  return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex();
+  return object_of(proxy).getUserIndex();
 }
 
 // What is noted in a pair that was looked at, so that the next look may read nothing else: its blocks, from 1 on, and as
@@ -52,15 +42,23 @@ struct SeenBlocks {
 };
 static_assert(sizeof(SeenBlocks) == sizeof(void*));
 
+std::array<int, 2> blocks_of(const btBroadphasePair& pair) {
+  if (pair.m_internalInfo1 == nullptr) return {block_of(pair.m_pProxy0), block_of(pair.m_pProxy1)};
+  const auto [first, second] = std::bit_cast<SeenBlocks>(pair.m_internalInfo1);
+  return {std::abs(first) - 1, std::abs(second) - 1};
+}
+
 void note(btBroadphasePair& pair, bool far) {
-  const SeenBlocks blocks{block_of(pair.m_pProxy0) + 1, block_of(pair.m_pProxy1) + 1};
+  const auto [first, second] = blocks_of(pair);
+  const SeenBlocks blocks{first + 1, second + 1};
   pair.m_internalInfo1 = std::bit_cast<void*>(far ? blocks : SeenBlocks{-blocks.first, -blocks.second});
 }
 
 }  // namespace
 
-Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers)
-    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes), sleepers_(sleepers) {
+Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers,
+                       std::span<const BlockMotion> motions)
+    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes), sleepers_(sleepers), motions_(motions) {
   setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
 }
 
@@ -84,36 +82,38 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   const auto for_each_compound = [&](const auto& use) {
     run_phases(std::array<int, 1>{static_cast<int>(compounds.size())}, 1, [&](int, int i) {
       const btBroadphasePair& pair = pairs[compounds[static_cast<std::size_t>(i)]];
-      use(compound_algorithm_of(pair), WrappedPair(pair));
+      use(compound_algorithm_of(pair), motions_of(pair));
     });
   };
-  for_each_compound([&](CompoundCollision& algorithm, const WrappedPair& wrapped) {
-    algorithm.look(wrapped.first, wrapped.second, info.m_timeStep);
-  });
+  for_each_compound(
+      [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.look(*blocks[0], *blocks[1], info.m_timeStep); });
   claim(pairs, news);
   run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
     for (const News& at : news[static_cast<std::size_t>(part)]) {
       if (!at.contact) continue;
-      const WrappedPair wrapped(pairs[at.pair]);
+      const auto [first, second] = motions_of(pairs[at.pair]);
       auto& algorithm = algorithm_of(pairs[at.pair]);
-      algorithm.take(algorithm.pair_of(wrapped.first, wrapped.second, info.m_timeStep), *at.contact);
+      algorithm.take(algorithm.pair_of(whole(*first), whole(*second), info.m_timeStep), *at.contact);
     }
   });
-  for_each_compound([&](CompoundCollision& algorithm, const WrappedPair& wrapped) {
-    algorithm.take(wrapped.first, wrapped.second, info.m_timeStep);
-  });
+  for_each_compound(
+      [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.take(*blocks[0], *blocks[1], info.m_timeStep); });
+}
+
+Dispatcher::Motions Dispatcher::motions_of(const btBroadphasePair& pair) const {
+  const auto [first, second] = blocks_of(pair);
+  return {&motions_[first], &motions_[second]};
 }
 
 // In the order of the pairs.
-void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) {
+void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) const {
   for (const auto& part : news) {
     for (const News& at : part) {
-      const WrappedPair wrapped(pairs[at.pair]);
-      const auto *first = wrapped.first.getCollisionObject(), *second = wrapped.second.getCollisionObject();
+      const auto [first, second] = motions_of(pairs[at.pair]);
       if (at.contact) {
-        algorithm_of(pairs[at.pair]).claim(first, second, *at.contact);
+        algorithm_of(pairs[at.pair]).claim(*first, *second, *at.contact);
       } else {
-        compound_algorithm_of(pairs[at.pair]).claim(first, second);
+        compound_algorithm_of(pairs[at.pair]).claim(*first, *second);
       }
     }
   }
@@ -128,14 +128,14 @@ bool Dispatcher::stays_as_it_is(const btBroadphasePair& pair) const {
 
 void Dispatcher::look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const {
   if (pair.m_algorithm == nullptr || stays_as_it_is(pair)) return;
-  const WrappedPair wrapped(pair);
-  if (!wrapped.of_polyhedra()) {
+  const auto [first, second] = motions_of(pair);
+  if (first->piece == nullptr || second->piece == nullptr) {
     note(pair, false);
     news.push_back({number, std::nullopt});
     return;
   }
   PolyhedronCollision& algorithm = algorithm_of(pair);
-  const auto looked_at = algorithm.pair_of(wrapped.first, wrapped.second, time_step);
+  const auto looked_at = algorithm.pair_of(whole(*first), whole(*second), time_step);
   const auto contact = algorithm.look(looked_at);
   note(pair, algorithm.far(looked_at) && (!contact || contact->count == 0));
   if (contact) news.push_back({number, contact});
@@ -157,9 +157,10 @@ void Dispatcher::add_algorithms(btBroadphasePairArray& pairs) {
   });
   for (const auto& part : without) {
     for (const int i : part) {
-      const WrappedPair wrapped(pairs[i]);
-      if (!needsCollision(wrapped.first.getCollisionObject(), wrapped.second.getCollisionObject())) continue;
-      pairs[i].m_algorithm = findAlgorithm(&wrapped.first, &wrapped.second, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+      const btCollisionObject &first = object_of(pairs[i].m_pProxy0), &second = object_of(pairs[i].m_pProxy1);
+      if (!needsCollision(&first, &second)) continue;
+      const btCollisionObjectWrapper of_first = wrapped(first), of_second = wrapped(second);
+      pairs[i].m_algorithm = findAlgorithm(&of_first, &of_second, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     }
   }
 }

@@ -1,7 +1,9 @@
 // Which pairs are looked at in a step, and by whom.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
@@ -21,7 +23,8 @@ class Dispatcher final : public btCollisionDispatcher {
  public:
   // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
   // home, nor two that do not move.
-  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers);
+  Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers,
+             std::span<const BlockMotion> motions);
   void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
 
@@ -30,7 +33,9 @@ class Dispatcher final : public btCollisionDispatcher {
     int pair;
     std::optional<ContactPoints> contact;  // nothing: its pieces know
   };
-  static void claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news);
+  using Motions = std::array<const BlockMotion*, 2>;
+  [[nodiscard]] Motions motions_of(const btBroadphasePair& pair) const;
+  void claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) const;
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);
   [[nodiscard]] bool stays_as_it_is(const btBroadphasePair& pair) const;
@@ -40,6 +45,7 @@ class Dispatcher final : public btCollisionDispatcher {
   Flights& flights_;
   const Homes& homes_;
   const Sleepers& sleepers_;
+  std::span<const BlockMotion> motions_;  // of the blocks
 };
 
 }  // namespace scree::rigid

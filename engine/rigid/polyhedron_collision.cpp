@@ -1,8 +1,6 @@
 #include "engine/rigid/polyhedron_collision.h"
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -19,34 +17,25 @@ namespace {
 
 using packing::PlacedPiece;
 
-void place(const PolyhedronShape& shape, const btTransform& pose, PlacedPiece& placed) {
-  const btMatrix3x3& r = pose.getBasis();
+void place(const Side& side, PlacedPiece& placed) {
+  const btMatrix3x3& r = side.block->pose.getBasis();
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(r[i]).transpose();
-  const Eigen::Vector3d origin = from_bullet(pose.getOrigin());
-  placed.piece = &shape.piece();
+  const Eigen::Vector3d origin = from_bullet(side.block->pose.getOrigin());
+  const mesh::ConvexPiece& piece = side.piece->piece();
+  placed.piece = &piece;
   placed.vertices.clear();
   placed.normals.clear();
-  for (const auto& vertex : shape.piece().vertices) placed.vertices.emplace_back(rotation * vertex + origin);
-  for (const auto& face : shape.piece().faces) placed.normals.emplace_back(rotation * face.normal);
-}
-
-// No two points of the pair approach each other faster than this [m/s].
-double fastest_approach(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second) {
-  const auto& a = *btRigidBody::upcast(first.getCollisionObject());
-  const auto& b = *btRigidBody::upcast(second.getCollisionObject());
-  return (a.getLinearVelocity() - b.getLinearVelocity()).length() +
-         radius_of(*first.getCollisionShape()) * a.getAngularVelocity().length() +
-         radius_of(*second.getCollisionShape()) * b.getAngularVelocity().length();
+  for (const auto& vertex : piece.vertices) placed.vertices.emplace_back(rotation * vertex + origin);
+  for (const auto& face : piece.faces) placed.normals.emplace_back(rotation * face.normal);
 }
 
 // A piece of a block that may meet something in a direction, by what it is of the block's surface. All is so of a convex block.
 class SurfaceSide {
  public:
-  SurfaceSide(const btCollisionObjectWrapper& piece, const Eigen::Vector3d& direction)
-      : piece_(static_cast<const PolyhedronShape&>(*piece.getCollisionShape()).piece()),
-        direction_(from_bullet(piece.getWorldTransform().getBasis().transpose() * to_bullet(direction))) {
-    const btCollisionShape* block = piece.getCollisionObject()->getCollisionShape();
+  SurfaceSide(const Side& side, const Eigen::Vector3d& direction)
+      : piece_(side.piece->piece()), direction_(from_bullet(side.block->pose.getBasis().transpose() * to_bullet(direction))) {
+    const btCollisionShape* block = side.block->body->getCollisionShape();
     if (block->isCompound()) compound_ = static_cast<const CompoundShape*>(block);
   }
 
@@ -81,49 +70,40 @@ class SurfaceSide {
 
 }  // namespace
 
-double reach_of(const ContactRanges& ranges, const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
-                double time_step) {
+double reach_of(const ContactRanges& ranges, const Side& first, const Side& second, double time_step) {
   return ranges.near + fastest_approach(first, second) * time_step;
 }
 
-PolyhedronCollision::Pair PolyhedronCollision::pair_of(const btCollisionObjectWrapper& first,
-                                                       const btCollisionObjectWrapper& second, double time_step) const {
-  return {&first, &second, reach_of(ranges_, first, second, time_step), time_step};
+void OwnCollision::processCollision(const btCollisionObjectWrapper*, const btCollisionObjectWrapper*, const btDispatcherInfo&,
+                                    btManifoldResult*) {
+  std::abort();
 }
 
-void PolyhedronCollision::processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                                           const btDispatcherInfo& info, btManifoldResult* result) {
-  const Pair pair = pair_of(*first, *second, info.m_timeStep);
-  if (const auto contact = look(pair)) {
-    claim(first->getCollisionObject(), second->getCollisionObject(), *contact);
-    take(pair, *contact);
-  }
-  if (manifold_ != nullptr) result->setPersistentManifold(manifold_);
+PolyhedronCollision::Pair PolyhedronCollision::pair_of(const Side& first, const Side& second, double time_step) const {
+  return {first, second, reach_of(ranges_, first, second, time_step), time_step};
 }
 
 std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
-  const btTransform relative = pair.first->getWorldTransform().inverseTimes(pair.second->getWorldTransform());
+  const btTransform relative = pair.first.block->pose.inverseTimes(pair.second.block->pose);
   if (!still_valid(pair, relative)) {
     relative_ = relative;
     moved_ = 0;
     return evaluate(pair);
   }
-  if (manifold_ != nullptr) move_points(pair, false);
   return std::nullopt;
 }
 
-void PolyhedronCollision::claim(const btCollisionObject* first, const btCollisionObject* second, const ContactPoints& contact) {
-  if (contact.count == 0) {
-    drop_manifold();
-  } else if (manifold_ == nullptr) {
-    manifold_ = m_dispatcher->getNewManifold(first, second);
+void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points) {
+  if (points.count == 0) {
+    drop_contact();
+  } else if (contact_ == nullptr) {
+    contact_ = &contacts_.add({first.body->getUserIndex(), second.body->getUserIndex()});
   }
 }
 
 bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) {
   if (evaluated_reach_ < 0) return false;
-  const auto& b = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape());
-  moved_ = way_moved(relative_, relative, b.radius());
+  moved_ = way_moved(relative_, relative, pair.second.radius);
   if (separation_.distance - moved_ > pair.reach) return true;
   return moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
 }
@@ -131,17 +111,15 @@ bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relat
 // Each block may have been on the one side of its home and be on the other later. What still_valid takes for the way moved
 // grows with the turn of the first block, times the distance to the second one's centre and its radius.
 bool PolyhedronCollision::far(const Pair& pair) const {
-  const double first = static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius();
-  const double second = static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape()).radius();
-  const double arm = relative_.getOrigin().length() + moved_ + 4 * ranges_.home + second;
-  const double moved_more = 2 * ranges_.home * (1 + std::max(1.0, arm / first));
+  const double arm = relative_.getOrigin().length() + moved_ + 4 * ranges_.home + pair.second.radius;
+  const double moved_more = 2 * ranges_.home * (1 + std::max(1.0, arm / pair.first.radius));
   const double reach = ranges_.near + 2 * ranges_.home;
-  return manifold_ == nullptr && separation_.distance - moved_ > 1.01 * (reach + moved_more);
+  return contact_ == nullptr && separation_.distance - moved_ > 1.01 * (reach + moved_more);
 }
 
 bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separation& at) const {
   using Feature = packing::Separation::Feature;
-  const SurfaceSide first(*pair.first, at.normal), second(*pair.second, -at.normal);
+  const SurfaceSide first(pair.first, at.normal), second(pair.second, -at.normal);
   switch (at.feature) {
     case Feature::face_of_first:
       return first.parts_at_face(at.of_first) && second.stands_out(ranges_.still);
@@ -156,8 +134,8 @@ bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separatio
 ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
   static thread_local PlacedPiece a;
   static thread_local PlacedPiece b;
-  place(static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()), pair.first->getWorldTransform(), a);
-  place(static_cast<const PolyhedronShape&>(*pair.second->getCollisionShape()), pair.second->getWorldTransform(), b);
+  place(pair.first, a);
+  place(pair.second, b);
   const double enough = pair.reach + ranges_.near;
   if (evaluated_reach_ >= 0) separation_.distance = packing::separation_along(a, b, separation_);
   if (evaluated_reach_ < 0 || separation_.distance <= enough)
@@ -175,66 +153,64 @@ ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
   return contact_points(a, b, separation_, pair.reach, ranges_.clearance);
 }
 
-void PolyhedronCollision::take(const Pair& pair, const ContactPoints& contact) {
-  if (contact.count == 0) return;
-  const auto* first = pair.first->getCollisionObject();
-  const auto* second = pair.second->getCollisionObject();
-  std::array<btManifoldPoint, 4> old;
-  const int old_count = manifold_->getNumContacts();
-  for (int i = 0; i < old_count; ++i) old[i] = manifold_->getContactPoint(i);
+void PolyhedronCollision::take(const Pair& pair, const ContactPoints& points) {
+  if (points.count == 0) return;
+  const BlockMotion &first = *pair.first.block, &second = *pair.second.block;
+  const auto old = contact_->points;
+  const int old_count = contact_->count;
 
-  normal_ = pair.first->getWorldTransform().getBasis().transpose() * -to_bullet(separation_.normal);
+  const btVector3 normal = first.pose.getBasis().transpose() * -to_bullet(separation_.normal);
   // The friction direction turns as little as the normal lets it, so that the impulses of the last step still fit.
-  tangent_ -= normal_ * normal_.dot(tangent_);
+  tangent_ -= normal * normal.dot(tangent_);
   if (tangent_.length2() < 0.25) {
     btVector3 unused;
-    btPlaneSpace1(normal_, tangent_, unused);
+    btPlaneSpace1(normal, tangent_, unused);
   }
   tangent_.normalize();
-  manifold_->setNumContacts(contact.count);
-  for (int i = 0; i < contact.count; ++i) {
-    const ContactPoint& at = contact.points[i];
-    btManifoldPoint& point = manifold_->getContactPoint(i);
-    point = btManifoldPoint(first->getWorldTransform().invXform(to_bullet(at.on_first)),
-                            second->getWorldTransform().invXform(to_bullet(at.on_second)), btVector3(0, 0, 0), at.distance);
-    point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
-    point.m_combinedFriction = std::min(first->getFriction(), second->getFriction());
+  contact_->normal = from_bullet(normal);
+  contact_->tangent = from_bullet(tangent_);
+  contact_->friction = std::min(first.body->getFriction(), second.body->getFriction());
+  contact_->count = points.count;
+  contact_->fresh = true;
+  for (int i = 0; i < points.count; ++i) {
+    const ContactPoint& at = points.points[i];
+    HeldPoint& point = contact_->points[i] = {};
+    point.on_first = from_bullet(first.pose.invXform(to_bullet(at.on_first)));
+    point.on_second = from_bullet(second.pose.invXform(to_bullet(at.on_second)));
+    point.distance = at.distance;
     set_bounce(pair, point, at);
   }
-  inherit_impulses(old, old_count, 0.05 * static_cast<const PolyhedronShape&>(*pair.first->getCollisionShape()).radius());
-  move_points(pair, true);
+  inherit_impulses(std::span(old).first(old_count), 0.05 * pair.first.radius);
 }
 
-// Bullet lets a pair close its gap within the step and takes that from the rebound, and lets a pair rebound that will not touch
-// yet. A point that is going to bounce in this step is therefore said to touch already, so that it leaves with exactly the
-// speed its restitution asks for, and one that is not has no restitution.
-void PolyhedronCollision::set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const {
-  const btCollisionObject* first = pair.first->getCollisionObject();
-  const btCollisionObject* second = pair.second->getCollisionObject();
-  const double restitution = std::min(first->getRestitution(), second->getRestitution());
+// A pair may close its gap within the step, which is taken from its rebound, and one that will not touch yet must not rebound.
+// A point that is going to bounce in this step is therefore said to touch already, so that it leaves with exactly the speed its
+// restitution asks for, and one that is not has no restitution.
+void PolyhedronCollision::set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const {
+  const btRigidBody &first = *pair.first.block->body, &second = *pair.second.block->body;
+  const double restitution = std::min(first.getRestitution(), second.getRestitution());
   if (restitution <= 0) return;
-  const auto velocity = [](const btCollisionObject* object, const Eigen::Vector3d& point_of) {
-    const btVector3 arm = to_bullet(point_of) - object->getWorldTransform().getOrigin();
-    return from_bullet(btRigidBody::upcast(object)->getVelocityInLocalPoint(arm));
+  const auto velocity = [](const btRigidBody& body, const Eigen::Vector3d& point_of) {
+    return from_bullet(body.getVelocityInLocalPoint(to_bullet(point_of) - body.getWorldTransform().getOrigin()));
   };
   const double approach = separation_.normal.dot(velocity(first, at.on_first) - velocity(second, at.on_second));
   if (approach <= ranges_.bounce_speed || at.distance - ranges_.clearance > approach * pair.time_step) return;
-  point.m_distance1 = std::min(at.distance, ranges_.clearance);
-  point.m_combinedRestitution = restitution;
+  point.distance = std::min(at.distance, ranges_.clearance);
+  point.restitution = restitution;
 }
 
 // Each new point takes the impulses of the nearest old one that no nearer point took.
-void PolyhedronCollision::inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near) {
+void PolyhedronCollision::inherit_impulses(std::span<const HeldPoint> old, double near) {
   std::array<bool, 4> taken{};
   std::array<bool, 4> served{};
-  for (int round = 0; round < old_count; ++round) {
+  for (std::size_t round = 0; round < old.size(); ++round) {
     double nearest = near * near;
     int from = -1;
     int to = -1;
-    for (int i = 0; i < manifold_->getNumContacts(); ++i) {
-      for (int j = 0; j < old_count; ++j) {
+    for (int i = 0; i < contact_->count; ++i) {
+      for (int j = 0; j < static_cast<int>(old.size()); ++j) {
         if (served[i] || taken[j]) continue;
-        const double distance = (manifold_->getContactPoint(i).m_localPointA - old[j].m_localPointA).length2();
+        const double distance = (contact_->points[i].on_first - old[j].on_first).squaredNorm();
         if (distance >= nearest) continue;
         nearest = distance;
         to = i;
@@ -243,33 +219,13 @@ void PolyhedronCollision::inherit_impulses(const std::array<btManifoldPoint, 4>&
     }
     if (from < 0) return;
     served[to] = taken[from] = true;
-    btManifoldPoint& point = manifold_->getContactPoint(to);
-    point.m_appliedImpulse = old[from].m_appliedImpulse;
-    point.m_appliedImpulseLateral1 = old[from].m_appliedImpulseLateral1;
-    point.m_appliedImpulseLateral2 = old[from].m_appliedImpulseLateral2;
+    contact_->points[to].impulses = old[from].impulses;
   }
 }
 
-// The points move with the pair. Their distance follows, exactly so for a pair that does not turn.
-void PolyhedronCollision::move_points(const Pair& pair, bool evaluated) {
-  const btTransform& first = pair.first->getCollisionObject()->getWorldTransform();
-  const btTransform& second = pair.second->getCollisionObject()->getWorldTransform();
-  const btVector3 normal = pair.first->getWorldTransform().getBasis() * normal_;
-  const btVector3 tangent = pair.first->getWorldTransform().getBasis() * tangent_;
-  for (int i = 0; i < manifold_->getNumContacts(); ++i) {
-    btManifoldPoint& point = manifold_->getContactPoint(i);
-    point.m_positionWorldOnA = first(point.m_localPointA);
-    point.m_positionWorldOnB = second(point.m_localPointB);
-    point.m_normalWorldOnB = normal;
-    if (!evaluated) point.m_distance1 = normal.dot(point.m_positionWorldOnA - point.m_positionWorldOnB);
-    point.m_lateralFrictionDir1 = tangent;
-    point.m_lateralFrictionDir2 = normal.cross(tangent);
-  }
-}
-
-void PolyhedronCollision::drop_manifold() {
-  if (manifold_ != nullptr) m_dispatcher->releaseManifold(manifold_);
-  manifold_ = nullptr;
+void PolyhedronCollision::drop_contact() {
+  if (contact_ != nullptr) contacts_.remove(*contact_);
+  contact_ = nullptr;
 }
 
 }  // namespace scree::rigid

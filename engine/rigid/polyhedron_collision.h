@@ -4,11 +4,12 @@
 #include <array>
 #include <optional>
 
-#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 
 #include "engine/packing/separation.h"
+#include "engine/rigid/block_motion.h"
 #include "engine/rigid/contact_points.h"
+#include "engine/rigid/held_contacts.h"
 
 namespace scree::rigid {
 
@@ -23,45 +24,45 @@ struct ContactRanges {
 };
 
 // How near points of two blocks, or of pieces of theirs, must be to become contacts in a step [m].
-double reach_of(const ContactRanges& ranges, const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
-                double time_step);
+double reach_of(const ContactRanges& ranges, const Side& first, const Side& second, double time_step);
+
+// What Bullet keeps with a pair. It is not Bullet that asks it to look at the pair, but our dispatcher, and no contact is in
+// one of Bullet's manifolds.
+class OwnCollision : public btCollisionAlgorithm {
+ public:
+  using btCollisionAlgorithm::btCollisionAlgorithm;
+  void processCollision(const btCollisionObjectWrapper*, const btCollisionObjectWrapper*, const btDispatcherInfo&,
+                        btManifoldResult*) final;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) final {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray&) final {}
+};
 
 // Two polyhedra that may touch.
-class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
+class PolyhedronCollision final : public OwnCollision {
  public:
-  PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges,
-                      const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second)
-      : btActivatingCollisionAlgorithm(info, first, second), ranges_(ranges) {}
+  PolyhedronCollision(const btCollisionAlgorithmConstructionInfo& info, const ContactRanges& ranges, HeldContacts& contacts)
+      : OwnCollision(info), ranges_(ranges), contacts_(contacts) {}
 
   // Of pieces of blocks: what they meet at must be a face or edge of the blocks' surfaces.
   void ask_for_surfaces() { only_surfaces_ = true; }
 
-  ~PolyhedronCollision() override { drop_manifold(); }
-
-  void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
-                        const btDispatcherInfo& info, btManifoldResult* result) override;
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&, btManifoldResult*) override {
-    return 1;
-  }
-  void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (manifold_ != nullptr) manifolds.push_back(manifold_);
-  }
+  ~PolyhedronCollision() override { drop_contact(); }
 
   struct Pair {
-    const btCollisionObjectWrapper* first;
-    const btCollisionObjectWrapper* second;
+    Side first, second;
     double reach;      // how near a point must be to become a contact in this step [m]
     double time_step;  // [s]
   };
 
-  [[nodiscard]] Pair pair_of(const btCollisionObjectWrapper& first, const btCollisionObjectWrapper& second,
-                             double time_step) const;
-  // Moves the points with the pair, or returns new ones. Touches nothing but its own pair, so that many may look at once.
+  [[nodiscard]] Pair pair_of(const Side& first, const Side& second, double time_step) const;
+  // New points, unless those it has still hold. Touches nothing but its own pair, so that many may look at once.
   [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
-  // Makes room for new points, or gives up what there was. One at a time, for manifolds come from a common pool.
-  void claim(const btCollisionObject* first, const btCollisionObject* second, const ContactPoints& contact);
+  // Makes room for new points, or gives up what there was. One at a time, for contacts come from a common pool.
+  void claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points);
   // Then takes them over, if there are any. Touches nothing but its own pair.
-  void take(const Pair& pair, const ContactPoints& contact);
+  void take(const Pair& pair, const ContactPoints& points);
   // Whether looks will find nothing to do as long as both blocks are at home.
   [[nodiscard]] bool far(const Pair& pair) const;
 
@@ -69,20 +70,19 @@ class PolyhedronCollision final : public btActivatingCollisionAlgorithm {
   [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
   [[nodiscard]] ContactPoints evaluate(const Pair& pair);
   [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
-  void set_bounce(const Pair& pair, btManifoldPoint& point, const ContactPoint& at) const;
-  void inherit_impulses(const std::array<btManifoldPoint, 4>& old, int old_count, double near);
-  void move_points(const Pair& pair, bool evaluated);
-  void drop_manifold();
+  void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;
+  void inherit_impulses(std::span<const HeldPoint> old, double near);
+  void drop_contact();
 
   const ContactRanges& ranges_;
+  HeldContacts& contacts_;
   bool only_surfaces_ = false;
-  btPersistentManifold* manifold_ = nullptr;
+  HeldContact* contact_ = nullptr;
   btTransform relative_;         // pose of the second in the first's frame when evaluated
   double moved_ = 0;             // since then, at most [m]
   double evaluated_reach_ = -1;  // negative: never evaluated
   packing::Separation separation_;
-  btVector3 normal_;            // from the second to the first, in the first's frame
-  btVector3 tangent_{0, 0, 0};  // first friction direction, in the first's frame
+  btVector3 tangent_{0, 0, 0};  // as in HeldContact, kept while there is none
 };
 
 }  // namespace scree::rigid

@@ -19,8 +19,7 @@ Eigen::Matrix3d matrix_of(const btMatrix3x3& m) {
 }
 
 // One that asks for an end of the motion along `direction` and for `more` on top of that.
-Row row_along(const Eigen::Vector3d& direction, const Bodies& bodies, const Arms& arms, double more) {
-  Row row;
+void set_up_along(Row& row, const Eigen::Vector3d& direction, const Bodies& bodies, const Arms& arms, double more) {
   row.direction = direction;
   double compliance = 0;
   double approach = 0;
@@ -37,20 +36,20 @@ Row row_along(const Eigen::Vector3d& direction, const Bodies& bodies, const Arms
   }
   row.scale = 1 / compliance;
   row.wanted = (more - approach) * row.scale;
-  return row;
 }
 
 // The speed at which the point is to part by its restitution, by the velocities before the step.
-double rebound(const btManifoldPoint& point, const Bodies& bodies, const Arms& arms, double bounce_speed) {
-  if (point.m_combinedRestitution <= 0) return 0;
+double rebound(const HeldPoint& point, const Eigen::Vector3d& normal, const Bodies& bodies, const Arms& arms,
+               double bounce_speed) {
+  if (point.restitution <= 0) return 0;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (int i = 0; i < 2; ++i) {
     if (bodies[i] == nullptr) continue;
     const Eigen::Vector3d at = from_bullet(bodies[i]->body->getVelocityInLocalPoint(to_bullet(arms[i])));
     velocity += i == 0 ? at : Eigen::Vector3d(-at);
   }
-  const double approach = -velocity.dot(from_bullet(point.m_normalWorldOnB));
-  return approach < bounce_speed ? 0.0 : point.m_combinedRestitution * approach;
+  const double approach = -velocity.dot(normal);
+  return approach < bounce_speed ? 0.0 : point.restitution * approach;
 }
 
 }  // namespace
@@ -72,31 +71,43 @@ BodyStart start_asleep(const btRigidBody& body) {
   return start;
 }
 
-ContactRow contact_row(const btManifoldPoint& point, const Bodies& bodies, std::array<int, 2> ids, const StepLengths& step) {
-  Arms arms{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  if (bodies[0] != nullptr) arms[0] = from_bullet(point.m_positionWorldOnA) - bodies[0]->centre;
-  if (bodies[1] != nullptr) arms[1] = from_bullet(point.m_positionWorldOnB) - bodies[1]->centre;
-  // A pair apart may close its gap within the step.
-  const double gap = std::max(point.m_distance1 - step.clearance, 0.0) / step.time_step;
-  ContactRow row;
-  row.normal =
-      row_along(from_bullet(point.m_normalWorldOnB), bodies, arms, rebound(point, bodies, arms, step.bounce_speed) - gap);
-  row.friction[0] = row_along(from_bullet(point.m_lateralFrictionDir1), bodies, arms, 0);
-  row.friction[1] = row_along(from_bullet(point.m_lateralFrictionDir2), bodies, arms, 0);
-  row.coefficient = point.m_combinedFriction;
-  row.bodies = ids;
-  row.normal.applied = point.m_appliedImpulse;
-  // Turned into new directions it may be a hair more.
-  const double most = row.coefficient * point.m_appliedImpulse;
-  const double size = std::hypot(point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2);
-  const double part = size > most ? most / size : 1;
-  row.friction[0].applied = part * point.m_appliedImpulseLateral1;
-  row.friction[1].applied = part * point.m_appliedImpulseLateral2;
-  return row;
+PlacedContact place(HeldContact& contact, const btTransform& first, const btTransform& second) {
+  const btVector3 normal = first.getBasis() * to_bullet(contact.normal),
+                  tangent = first.getBasis() * to_bullet(contact.tangent);
+  PlacedContact placed;
+  placed.axes = {from_bullet(normal), from_bullet(tangent), from_bullet(normal.cross(tangent))};
+  for (int i = 0; i < contact.count; ++i) {
+    HeldPoint& point = contact.points[i];
+    const btVector3 on_first = first(to_bullet(point.on_first)), on_second = second(to_bullet(point.on_second));
+    placed.points[i] = {from_bullet(on_first), from_bullet(on_second)};
+    if (!contact.fresh) point.distance = normal.dot(on_first - on_second);
+  }
+  contact.fresh = false;
+  return placed;
 }
 
-double overlap_impulse(const btManifoldPoint& point, const Row& normal, const StepLengths& step) {
-  return std::max(step.clearance - point.m_distance1, 0.0) * step.erp / step.time_step * normal.scale;
+void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int number, const Bodies& bodies,
+                const StepLengths& step) {
+  const HeldPoint& point = contact.points[number];
+  Arms arms{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  if (bodies[0] != nullptr) arms[0] = placed.points[number].on_first - bodies[0]->centre;
+  if (bodies[1] != nullptr) arms[1] = placed.points[number].on_second - bodies[1]->centre;
+  // A pair apart may close its gap within the step.
+  const double gap = std::max(point.distance - step.clearance, 0.0) / step.time_step;
+  const Eigen::Vector3d& normal = placed.axes[0];
+  set_up_along(row.normal, normal, bodies, arms, rebound(point, normal, bodies, arms, step.bounce_speed) - gap);
+  for (int i = 0; i < 2; ++i) set_up_along(row.friction[i], placed.axes[i + 1], bodies, arms, 0);
+  row.coefficient = contact.friction;
+  row.normal.applied = point.impulses[0];
+  // Turned into new directions it may be a hair more.
+  const double most = row.coefficient * point.impulses[0];
+  const double size = std::hypot(point.impulses[1], point.impulses[2]);
+  const double part = size > most ? most / size : 1;
+  for (int i = 0; i < 2; ++i) row.friction[i].applied = part * point.impulses[i + 1];
+}
+
+double overlap_impulse(const HeldPoint& point, const Row& normal, const StepLengths& step) {
+  return std::max(step.clearance - point.distance, 0.0) * step.erp / step.time_step * normal.scale;
 }
 
 }  // namespace scree::rigid

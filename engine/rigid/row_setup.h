@@ -1,10 +1,11 @@
 // A contact point between two bodies as rows of the solver.
 #pragma once
 
-#include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "engine/rigid/block_motion.h"
 #include "engine/rigid/contact_rows.h"
+#include "engine/rigid/held_contacts.h"
 
 namespace scree::rigid {
 
@@ -28,11 +29,23 @@ struct StepLengths {
 BodyStart start_of(const btRigidBody& body, double time_step);
 BodyStart start_asleep(const btRigidBody& body);  // nothing moves it
 
-// The rows of a point, starting from the impulses of the last step; null: a fixed body. `ids` as the rows are to hold them.
-ContactRow contact_row(const btManifoldPoint& point, const std::array<const BodyStart*, 2>& bodies, std::array<int, 2> ids,
-                       const StepLengths& step);
+// A contact where its blocks are now.
+struct PlacedContact {
+  std::array<Eigen::Vector3d, 3> axes;  // the normal and the directions of friction
+  struct Point {
+    Eigen::Vector3d on_first, on_second;  // [m]
+  };
+  std::array<Point, 4> points;
+};
+
+// The distances of the contact follow its points, exactly so for a pair that does not turn.
+PlacedContact place(HeldContact& contact, const btTransform& first, const btTransform& second);
+
+// The rows of a point, starting from the impulses of the last step; null: a fixed body. The row knows already whom it concerns.
+void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int point,
+                const std::array<const BodyStart*, 2>& bodies, const StepLengths& step);
 
 // The impulse that would undo the overlap of the point by itself, or bring it to the clearance; zero if it is further apart.
-double overlap_impulse(const btManifoldPoint& point, const Row& normal, const StepLengths& step);
+double overlap_impulse(const HeldPoint& point, const Row& normal, const StepLengths& step);
 
 }  // namespace scree::rigid

@@ -2,8 +2,6 @@
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -98,11 +96,12 @@ double density_of(const Material& material) {
 struct World::Bullet {
   Bullet(const ContactRanges& found_in, const mesh::BlockMesh<3>& mesh, const SettleOptions& options)
       : ranges(found_in),
-        configuration(ranges, static_cast<int>(mesh.blocks.size())),
+        configuration(ranges, contacts, static_cast<int>(mesh.blocks.size())),
         flights(mesh, options.release_time > 0),
         homes(mesh.blocks.size(), ranges.home),
         sleepers(mesh.blocks.size()),
-        dispatcher(configuration, flights, homes, sleepers),
+        motions(mesh.blocks.size()),
+        dispatcher(configuration, flights, homes, sleepers, motions),
         boxes(mesh.blocks.size()),
         world(&dispatcher, &broadphase, nullptr, &configuration) {
     gDbvtMargin = ranges.near;
@@ -110,20 +109,18 @@ struct World::Bullet {
   }
 
   ContactRanges ranges;
+  HeldContacts contacts;
   CollisionConfiguration configuration;
   Flights flights;
   Homes homes;
   Sleepers sleepers;
+  std::vector<BlockMotion> motions;  // of the blocks, as the step begins
   Dispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase{&pairs};
   ContactSolver solver;
   std::vector<std::array<btVector3, 2>> boxes;  // of each block, on its way through the step [m]
   btDiscreteDynamicsWorld world;                // only of its bodies and their pairs; steps are made here
-
-  [[nodiscard]] std::span<btPersistentManifold* const> manifolds() {
-    return {dispatcher.getInternalManifoldPointer(), static_cast<std::size_t>(dispatcher.getNumManifolds())};
-  }
 };
 
 struct World::Item {
@@ -182,6 +179,7 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   item.body->setActivationState(DISABLE_DEACTIVATION);
   if (owner.fixed) {
     bullet_->sleepers.fix(item.body->getUserIndex());
+    bullet_->motions[block.index()] = motion_of(*item.body);
     bullet_->world.addRigidBody(item.body.get());
   } else {
     item.body->setLinearVelocity(to_bullet(owner.velocity));
@@ -231,6 +229,7 @@ void World::step(double time_step, int iterations) {
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       btRigidBody& body = *free_bodies_[i];
+      bullet_->motions[free_[i].index()] = motion_of(body);
       if (asleep(free_[i])) continue;
       bullet_->homes.look(body, items_[body.getUserIndex()].radius, time_step);
       body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
@@ -238,7 +237,7 @@ void World::step(double time_step, int iterations) {
   });
   find_contacts(time_step);
   if (bullet_->sleepers.count() > 0) wake_what_is_touched();
-  bullet_->solver.solve(free_bodies_, bullet_->sleepers, bullet_->manifolds(),
+  bullet_->solver.solve(free_bodies_, bullet_->sleepers, bullet_->motions, bullet_->contacts.all(),
                         {time_step, overlap_undone, bullet_->ranges.bounce_speed, bullet_->ranges.clearance}, iterations);
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
@@ -272,9 +271,8 @@ void World::find_contacts(double time_step) {
 
 void World::wake_what_is_touched() {
   Sleepers& sleepers = bullet_->sleepers;
-  for (const btPersistentManifold* manifold : bullet_->manifolds()) {
-    if (manifold->getNumContacts() == 0) continue;
-    const int first = manifold->getBody0()->getUserIndex(), second = manifold->getBody1()->getUserIndex();
+  for (const HeldContact* contact : bullet_->contacts.all()) {
+    const auto [first, second] = contact->blocks;
     if (sleepers.asleep(first) && !sleepers.still(second)) sleepers.wake(first);
     if (sleepers.asleep(second) && !sleepers.still(first)) sleepers.wake(second);
   }
@@ -282,9 +280,9 @@ void World::wake_what_is_touched() {
 
 std::vector<std::vector<BlockId>> World::touching_groups() const {
   mesh::DisjointSets sets(items_.size());
-  for (const btPersistentManifold* manifold : bullet_->manifolds()) {
-    const int first = manifold->getBody0()->getUserIndex(), second = manifold->getBody1()->getUserIndex();
-    if (manifold->getNumContacts() == 0 || items_[first].mass == 0 || items_[second].mass == 0) continue;
+  for (const HeldContact* contact : bullet_->contacts.all()) {
+    const auto [first, second] = contact->blocks;
+    if (items_[first].mass == 0 || items_[second].mass == 0) continue;
     sets.join(static_cast<std::size_t>(first), static_cast<std::size_t>(second));
   }
   std::vector<BlockId> awake;
@@ -344,13 +342,9 @@ Table<BlockId, Pose> World::poses() const {
 }
 
 void World::scale_impulses(double factor) {
-  for (int i = 0; i < bullet_->dispatcher.getNumManifolds(); ++i) {
-    btPersistentManifold& manifold = *bullet_->dispatcher.getManifoldByIndexInternal(i);
-    for (int j = 0; j < manifold.getNumContacts(); ++j) {
-      btManifoldPoint& point = manifold.getContactPoint(j);
-      point.m_appliedImpulse *= factor;
-      point.m_appliedImpulseLateral1 *= factor;
-      point.m_appliedImpulseLateral2 *= factor;
+  for (HeldContact* contact : bullet_->contacts.all()) {
+    for (HeldPoint& point : contact->points) {
+      for (double& impulse : point.impulses) impulse *= factor;
     }
   }
 }
