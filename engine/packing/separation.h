@@ -13,9 +13,14 @@ struct PlacedPiece {
   const mesh::ConvexPiece* piece = nullptr;
   std::vector<Eigen::Vector3d> vertices;  // [m]
   std::vector<Eigen::Vector3d> normals;   // of the faces
+  // Of four faces each the normals' x, y and z, and how far along its normal each face lies [m]; zeros behind the last one.
+  std::vector<double> by_fours;
 };
 
 PlacedPiece placed(const mesh::ConvexPiece& piece, const Pose& pose);
+// Into the memory of an earlier one.
+void place(const mesh::ConvexPiece& piece, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
+           PlacedPiece& result);
 
 // The plane that parts two pieces best, or through which the deeper is pushed out soonest.
 struct Separation {

@@ -2,11 +2,34 @@
 
 namespace scree::rigid {
 
-BlockMotion motion_of(const btRigidBody& body) {
+namespace {
+
+void place(const PolyhedronShape& shape, const btTransform& pose, packing::PlacedPiece& placed) {
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(pose.getBasis()[i]).transpose();
+  packing::place(shape.piece(), rotation, from_bullet(pose.getOrigin()), placed);
+}
+
+}  // namespace
+
+BlockMotion motion_of(const btRigidBody& body, const packing::PlacedPiece& placed) {
   const btCollisionShape& shape = *body.getCollisionShape();
-  const auto* piece = shape.isCompound() ? nullptr : static_cast<const PolyhedronShape*>(&shape);
-  return {
-      body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity().length(), radius_of(shape), piece, &body};
+  BlockMotion motion{body.getWorldTransform(), body.getLinearVelocity()};
+  motion.spin = body.getAngularVelocity().length();
+  motion.radius = radius_of(shape);
+  motion.body = &body;
+  if (!shape.isCompound()) motion.placed = &placed;
+  return motion;
+}
+
+void place(const BlockMotion& block, packing::PlacedPiece& placed) {
+  place(static_cast<const PolyhedronShape&>(*block.body->getCollisionShape()), block.pose, placed);
+}
+
+const packing::PlacedPiece& placed(const Side& side, packing::PlacedPiece& memory) {
+  if (side.piece == nullptr) return *side.block->placed;
+  place(*side.piece, side.block->pose, memory);
+  return memory;
 }
 
 double fastest_approach(const Side& first, const Side& second) {

@@ -21,11 +21,17 @@ const btCompoundShape& compound_of(const BlockMotion& block) {
   return static_cast<const btCompoundShape&>(*block.body->getCollisionShape());
 }
 
+const PolyhedronShape& shape_of(const BlockMotion& block, int number) {
+  const btCollisionShape& shape =
+      block.placed != nullptr ? *block.body->getCollisionShape() : *compound_of(block).getChildShape(number);
+  return static_cast<const PolyhedronShape&>(shape);
+}
+
 // All pieces have the block's frame.
 Side piece_of(const BlockMotion& block, int number) {
-  if (block.piece != nullptr) return whole(block);
-  const auto& piece = static_cast<const PolyhedronShape&>(*compound_of(block).getChildShape(number));
-  return {&block, &piece, piece.radius()};
+  if (block.placed != nullptr) return whole(block);
+  const PolyhedronShape& piece = shape_of(block, number);
+  return {&block, piece.radius(), &piece};
 }
 
 // The numbers of a block's pieces whose boxes, in the block's frame, meet a box in that frame.
@@ -34,7 +40,7 @@ std::vector<int> pieces_in(const BlockMotion& block, const btVector3& low, const
     std::vector<int> numbers;
     void Process(const btDbvtNode* leaf) override { numbers.push_back(leaf->dataAsInt); }
   };
-  if (block.piece != nullptr) return {0};
+  if (block.placed != nullptr) return {0};
   Found found;
   const btDbvt& tree = *compound_of(block).getDynamicAabbTree();
   tree.collideTV(tree.m_root, btDbvtVolume::FromMM(low, high), found);
@@ -50,7 +56,7 @@ std::vector<Numbers> near_pieces(const BlockMotion& first, const BlockMotion& se
   std::vector<Numbers> near;
   for (const int of_second : pieces_in(second, low - around, high + around)) {
     btVector3 piece_low, piece_high;
-    piece_of(second, of_second).piece->getAabb(to_first, piece_low, piece_high);
+    shape_of(second, of_second).getAabb(to_first, piece_low, piece_high);
     for (const int of_first : pieces_in(first, piece_low - around, piece_high + around)) near.push_back({of_first, of_second});
   }
   std::sort(near.begin(), near.end());
@@ -63,7 +69,9 @@ void CompoundCollision::look(const BlockMotion& first, const BlockMotion& second
   keep(near_pieces(first, second, reach_of(ranges_, whole(first), whole(second), time_step)));
   for (Pieces& pair : pieces_) {
     const Side of_first = piece_of(first, pair.numbers[0]), of_second = piece_of(second, pair.numbers[1]);
-    pair.news = pair.collision->look(pair.collision->pair_of(of_first, of_second, time_step));
+    const auto looked_at = pair.collision->pair_of(of_first, of_second, time_step);
+    pair.news.reset();
+    if (!pair.collision->still_holds(looked_at)) pair.news = pair.collision->look(looked_at);
   }
 }
 

@@ -4,9 +4,11 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 #include "engine/base/phases.h"
 #include "engine/rigid/compound_collision.h"
@@ -57,8 +59,14 @@ void note(btBroadphasePair& pair, bool far) {
 }  // namespace
 
 Dispatcher::Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers,
-                       std::span<const BlockMotion> motions)
-    : btCollisionDispatcher(&configuration), flights_(flights), homes_(homes), sleepers_(sleepers), motions_(motions) {
+                       std::span<const BlockMotion> motions, std::span<packing::PlacedPiece> placed)
+    : btCollisionDispatcher(&configuration),
+      flights_(flights),
+      homes_(homes),
+      sleepers_(sleepers),
+      motions_(motions),
+      placed_(placed),
+      to_place_(motions.size()) {
   setDispatcherFlags(getDispatcherFlags() & ~CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
 }
 
@@ -66,17 +74,21 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
   if (flights_.count() > 0) end_flights(pairs);
   add_algorithms(pairs);
-  std::vector<std::vector<News>> news(chunk_count(static_cast<std::size_t>(pairs.size())));
-  for_short_chunks(static_cast<std::size_t>(pairs.size()), [&](Chunk chunk) {
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      look(pairs[static_cast<int>(i)], static_cast<int>(i), info.m_timeStep, news[chunk.number]);
-    }
-  });
+  std::vector<std::vector<News>> news = ask_all(pairs, info.m_timeStep);
+  place_blocks();
+  const auto for_each_news = [&](const auto& use) {
+    run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
+      for (News& at : news[static_cast<std::size_t>(part)]) {
+        if (!at.of_pieces) use(pairs[at.pair], at);
+      }
+    });
+  };
+  for_each_news([&](btBroadphasePair& pair, News& at) { look(pair, info.m_timeStep, at); });
   // A pair of compounds is as much work as many pairs of polyhedra.
   std::vector<int> compounds;
   for (const auto& part : news) {
     for (const News& at : part) {
-      if (!at.contact) compounds.push_back(at.pair);
+      if (at.of_pieces) compounds.push_back(at.pair);
     }
   }
   const auto for_each_compound = [&](const auto& use) {
@@ -88,13 +100,10 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   for_each_compound(
       [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.look(*blocks[0], *blocks[1], info.m_timeStep); });
   claim(pairs, news);
-  run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
-    for (const News& at : news[static_cast<std::size_t>(part)]) {
-      if (!at.contact) continue;
-      const auto [first, second] = motions_of(pairs[at.pair]);
-      auto& algorithm = algorithm_of(pairs[at.pair]);
-      algorithm.take(algorithm.pair_of(whole(*first), whole(*second), info.m_timeStep), *at.contact);
-    }
+  for_each_news([&](const btBroadphasePair& pair, const News& at) {
+    const auto [first, second] = motions_of(pair);
+    auto& algorithm = algorithm_of(pair);
+    algorithm.take(algorithm.pair_of(whole(*first), whole(*second), info.m_timeStep), at.contact);
   });
   for_each_compound(
       [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.take(*blocks[0], *blocks[1], info.m_timeStep); });
@@ -110,10 +119,10 @@ void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std
   for (const auto& part : news) {
     for (const News& at : part) {
       const auto [first, second] = motions_of(pairs[at.pair]);
-      if (at.contact) {
-        algorithm_of(pairs[at.pair]).claim(*first, *second, *at.contact);
-      } else {
+      if (at.of_pieces) {
         compound_algorithm_of(pairs[at.pair]).claim(*first, *second);
+      } else {
+        algorithm_of(pairs[at.pair]).claim(*first, *second, at.contact);
       }
     }
   }
@@ -126,19 +135,47 @@ bool Dispatcher::stays_as_it_is(const btBroadphasePair& pair) const {
   return sleepers_.still(std::abs(first) - 1) && sleepers_.still(std::abs(second) - 1);
 }
 
-void Dispatcher::look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const {
+std::vector<std::vector<Dispatcher::News>> Dispatcher::ask_all(btBroadphasePairArray& pairs, double time_step) {
+  std::vector<std::vector<News>> news(chunk_count(static_cast<std::size_t>(pairs.size())));
+  for_short_chunks(static_cast<std::size_t>(pairs.size()), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      ask(pairs[static_cast<int>(i)], static_cast<int>(i), time_step, news[chunk.number]);
+    }
+  });
+  return news;
+}
+
+void Dispatcher::ask(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) {
   if (pair.m_algorithm == nullptr || stays_as_it_is(pair)) return;
   const auto [first, second] = motions_of(pair);
-  if (first->piece == nullptr || second->piece == nullptr) {
-    note(pair, false);
-    news.push_back({number, std::nullopt});
-    return;
+  const bool of_pieces = first->placed == nullptr || second->placed == nullptr;
+  if (!of_pieces) {
+    PolyhedronCollision& algorithm = algorithm_of(pair);
+    const auto asked_for = algorithm.pair_of(whole(*first), whole(*second), time_step);
+    if (algorithm.still_holds(asked_for)) {
+      note(pair, algorithm.far(asked_for));
+      return;
+    }
   }
+  note(pair, false);
+  for (const int block : blocks_of(pair)) std::atomic_ref(to_place_[block]).store(1, std::memory_order_relaxed);
+  news.push_back({number, of_pieces, {}});
+}
+
+void Dispatcher::place_blocks() {
+  for_short_chunks(to_place_.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (std::exchange(to_place_[i], 0) != 0 && motions_[i].placed != nullptr) place(motions_[i], placed_[i]);
+    }
+  });
+}
+
+void Dispatcher::look(btBroadphasePair& pair, double time_step, News& news) const {
+  const auto [first, second] = motions_of(pair);
   PolyhedronCollision& algorithm = algorithm_of(pair);
   const auto looked_at = algorithm.pair_of(whole(*first), whole(*second), time_step);
-  const auto contact = algorithm.look(looked_at);
-  note(pair, algorithm.far(looked_at) && (!contact || contact->count == 0));
-  if (contact) news.push_back({number, contact});
+  news.contact = algorithm.look(looked_at);
+  note(pair, algorithm.far(looked_at) && news.contact.count == 0);
 }
 
 void Dispatcher::end_flights(const btBroadphasePairArray& pairs) {

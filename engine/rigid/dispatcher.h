@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,14 +23,16 @@ class Dispatcher final : public btCollisionDispatcher {
   // The objects' user indices are their blocks. Blocks that fly together are not looked at, nor those far apart that are at
   // home, nor two that do not move.
   Dispatcher(CollisionConfiguration& configuration, Flights& flights, const Homes& homes, const Sleepers& sleepers,
-             std::span<const BlockMotion> motions);
+             std::span<const BlockMotion> motions, std::span<packing::PlacedPiece> placed);
   void dispatchAllCollisionPairs(btOverlappingPairCache* cache, const btDispatcherInfo& info,
                                  btDispatcher* dispatcher) override;
 
  private:
+  // A pair that has to be looked at.
   struct News {
     int pair;
-    std::optional<ContactPoints> contact;  // nothing: its pieces know
+    bool of_pieces;         // which know what is new
+    ContactPoints contact;  // of a pair of polyhedra
   };
   using Motions = std::array<const BlockMotion*, 2>;
   [[nodiscard]] Motions motions_of(const btBroadphasePair& pair) const;
@@ -39,13 +40,19 @@ class Dispatcher final : public btCollisionDispatcher {
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);
   [[nodiscard]] bool stays_as_it_is(const btBroadphasePair& pair) const;
-  // Appends what is new of the pair with this number.
-  void look(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) const;
+  // In the order of the pairs, by parts of them.
+  std::vector<std::vector<News>> ask_all(btBroadphasePairArray& pairs, double time_step);
+  // Appends the pair with this number if it has to be looked at, and says which blocks are to be placed for it.
+  void ask(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news);
+  void place_blocks();
+  void look(btBroadphasePair& pair, double time_step, News& news) const;
 
   Flights& flights_;
   const Homes& homes_;
   const Sleepers& sleepers_;
   std::span<const BlockMotion> motions_;  // of the blocks
+  std::span<packing::PlacedPiece> placed_;
+  std::vector<char> to_place_;
 };
 
 }  // namespace scree::rigid

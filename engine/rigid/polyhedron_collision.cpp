@@ -17,24 +17,15 @@ namespace {
 
 using packing::PlacedPiece;
 
-void place(const Side& side, PlacedPiece& placed) {
-  const btMatrix3x3& r = side.block->pose.getBasis();
-  Eigen::Matrix3d rotation;
-  for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(r[i]).transpose();
-  const Eigen::Vector3d origin = from_bullet(side.block->pose.getOrigin());
-  const mesh::ConvexPiece& piece = side.piece->piece();
-  placed.piece = &piece;
-  placed.vertices.clear();
-  placed.normals.clear();
-  for (const auto& vertex : piece.vertices) placed.vertices.emplace_back(rotation * vertex + origin);
-  for (const auto& face : piece.faces) placed.normals.emplace_back(rotation * face.normal);
+btTransform relative_pose(const PolyhedronCollision::Pair& pair) {
+  return pair.first.block->pose.inverseTimes(pair.second.block->pose);
 }
 
 // A piece of a block that may meet something in a direction, by what it is of the block's surface. All is so of a convex block.
 class SurfaceSide {
  public:
   SurfaceSide(const Side& side, const Eigen::Vector3d& direction)
-      : piece_(side.piece->piece()), direction_(from_bullet(side.block->pose.getBasis().transpose() * to_bullet(direction))) {
+      : piece_(side.shape()), direction_(from_bullet(side.block->pose.getBasis().transpose() * to_bullet(direction))) {
     const btCollisionShape* block = side.block->body->getCollisionShape();
     if (block->isCompound()) compound_ = static_cast<const CompoundShape*>(block);
   }
@@ -83,14 +74,10 @@ PolyhedronCollision::Pair PolyhedronCollision::pair_of(const Side& first, const 
   return {first, second, reach_of(ranges_, first, second, time_step), time_step};
 }
 
-std::optional<ContactPoints> PolyhedronCollision::look(const Pair& pair) {
-  const btTransform relative = pair.first.block->pose.inverseTimes(pair.second.block->pose);
-  if (!still_valid(pair, relative)) {
-    relative_ = relative;
-    moved_ = 0;
-    return evaluate(pair);
-  }
-  return std::nullopt;
+ContactPoints PolyhedronCollision::look(const Pair& pair) {
+  relative_ = relative_pose(pair);
+  moved_ = 0;
+  return evaluate(pair);
 }
 
 void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points) {
@@ -101,14 +88,14 @@ void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& sec
   }
 }
 
-bool PolyhedronCollision::still_valid(const Pair& pair, const btTransform& relative) {
+bool PolyhedronCollision::still_holds(const Pair& pair) {
   if (evaluated_reach_ < 0) return false;
-  moved_ = way_moved(relative_, relative, pair.second.radius);
+  moved_ = way_moved(relative_, relative_pose(pair), pair.second.radius);
   if (separation_.distance - moved_ > pair.reach) return true;
   return moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
 }
 
-// Each block may have been on the one side of its home and be on the other later. What still_valid takes for the way moved
+// Each block may have been on the one side of its home and be on the other later. What still_holds takes for the way moved
 // grows with the turn of the first block, times the distance to the second one's centre and its radius.
 bool PolyhedronCollision::far(const Pair& pair) const {
   const double arm = relative_.getOrigin().length() + moved_ + 4 * ranges_.home + pair.second.radius;
@@ -132,10 +119,8 @@ bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separatio
 }
 
 ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
-  static thread_local PlacedPiece a;
-  static thread_local PlacedPiece b;
-  place(pair.first, a);
-  place(pair.second, b);
+  static thread_local PlacedPiece of_first, of_second;
+  const PlacedPiece &a = placed(pair.first, of_first), &b = placed(pair.second, of_second);
   const double enough = pair.reach + ranges_.near;
   if (evaluated_reach_ >= 0) separation_.distance = packing::separation_along(a, b, separation_);
   if (evaluated_reach_ < 0 || separation_.distance <= enough)

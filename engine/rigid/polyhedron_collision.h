@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 
@@ -57,8 +56,11 @@ class PolyhedronCollision final : public OwnCollision {
   };
 
   [[nodiscard]] Pair pair_of(const Side& first, const Side& second, double time_step) const;
-  // New points, unless those it has still hold. Touches nothing but its own pair, so that many may look at once.
-  [[nodiscard]] std::optional<ContactPoints> look(const Pair& pair);
+  // Whether the points it has still hold, if there are any. This and the next touch nothing but their own pair, so that many
+  // may be asked at once.
+  [[nodiscard]] bool still_holds(const Pair& pair);
+  // New points.
+  [[nodiscard]] ContactPoints look(const Pair& pair);
   // Makes room for new points, or gives up what there was. One at a time, for contacts come from a common pool.
   void claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points);
   // Then takes them over, if there are any. Touches nothing but its own pair.
@@ -67,7 +69,6 @@ class PolyhedronCollision final : public OwnCollision {
   [[nodiscard]] bool far(const Pair& pair) const;
 
  private:
-  [[nodiscard]] bool still_valid(const Pair& pair, const btTransform& relative);
   [[nodiscard]] ContactPoints evaluate(const Pair& pair);
   [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
   void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;

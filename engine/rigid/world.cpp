@@ -100,8 +100,9 @@ struct World::Bullet {
         flights(mesh, options.release_time > 0),
         homes(mesh.blocks.size(), ranges.home),
         sleepers(mesh.blocks.size()),
+        placed(mesh.blocks.size()),
         motions(mesh.blocks.size()),
-        dispatcher(configuration, flights, homes, sleepers, motions),
+        dispatcher(configuration, flights, homes, sleepers, motions, placed),
         boxes(mesh.blocks.size()),
         world(&dispatcher, &broadphase, nullptr, &configuration) {
     gDbvtMargin = ranges.near;
@@ -114,13 +115,19 @@ struct World::Bullet {
   Flights flights;
   Homes homes;
   Sleepers sleepers;
-  std::vector<BlockMotion> motions;  // of the blocks, as the step begins
+  std::vector<packing::PlacedPiece> placed;  // of the blocks, by the dispatcher
+  std::vector<BlockMotion> motions;          // of the blocks, as the step begins
   Dispatcher dispatcher;
   PairCache pairs;
   btDbvtBroadphase broadphase{&pairs};
   ContactSolver solver;
   std::vector<std::array<btVector3, 2>> boxes;  // of each block, on its way through the step [m]
   btDiscreteDynamicsWorld world;                // only of its bodies and their pairs; steps are made here
+
+  void observe(const btRigidBody& body) {
+    const auto block = static_cast<std::size_t>(body.getUserIndex());
+    motions[block] = motion_of(body, placed[block]);
+  }
 };
 
 struct World::Item {
@@ -179,7 +186,7 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   item.body->setActivationState(DISABLE_DEACTIVATION);
   if (owner.fixed) {
     bullet_->sleepers.fix(item.body->getUserIndex());
-    bullet_->motions[block.index()] = motion_of(*item.body);
+    bullet_->observe(*item.body);
     bullet_->world.addRigidBody(item.body.get());
   } else {
     item.body->setLinearVelocity(to_bullet(owner.velocity));
@@ -229,8 +236,8 @@ void World::step(double time_step, int iterations) {
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       btRigidBody& body = *free_bodies_[i];
-      bullet_->motions[free_[i].index()] = motion_of(body);
       if (asleep(free_[i])) continue;
+      bullet_->observe(body);
       bullet_->homes.look(body, items_[body.getUserIndex()].radius, time_step);
       body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
     }
@@ -303,6 +310,7 @@ void World::put_to_sleep(const std::vector<BlockId>& group) {
     body.setLinearVelocity(zero);
     body.setAngularVelocity(zero);
     body.setInterpolationWorldTransform(body.getWorldTransform());
+    bullet_->observe(body);
     blocks.push_back(body.getUserIndex());
   }
   bullet_->sleepers.put_to_sleep(blocks);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,89 @@ TEST(ContactRows, OfAChainOfBodiesConvergeToTheMotionOfOne) {
   for (int pass = 0; pass < 400; ++pass) solve_contacts(rows, bodies);
   EXPECT_NEAR(1 + bodies[0].linear.z(), 1.0 / balls, 1e-9);
   for (int i = 1; i < balls; ++i) EXPECT_NEAR(bodies[i].linear.z(), 1.0 / balls, 1e-9);
+}
+
+// One number after the other, as the rows are defined.
+class OneByOne {
+ public:
+  OneByOne(const std::array<int, 2>& ids, std::vector<BodyChange>& bodies) {
+    for (int i = 0; i < 2; ++i) bodies_[i] = ids[i] < 0 ? nullptr : &bodies[ids[i]];
+  }
+
+  [[nodiscard]] double asked(const Row& row) const {
+    double change = 0;
+    for (int i = 0; i < 2; ++i) {
+      if (bodies_[i] == nullptr) continue;
+      const double along = dot(row.direction, bodies_[i]->linear);
+      change += dot(row.moment[i], bodies_[i]->angular) + (i == 0 ? along : -along);
+    }
+    return row.applied + row.wanted - change * row.scale;
+  }
+
+  void set(Row& row, double impulse) {
+    const double more = impulse - row.applied;
+    row.applied = impulse;
+    for (int i = 0; i < 2; ++i) {
+      if (bodies_[i] == nullptr) continue;
+      const double push = (i == 0 ? 1 : -1) * (bodies_[i]->inverse_mass * more);
+      for (int k = 0; k < 3; ++k) {
+        bodies_[i]->linear[k] += row.direction[k] * push;
+        bodies_[i]->angular[k] += row.turn[i][k] * more;
+      }
+    }
+  }
+
+ private:
+  static double dot(const Vector3d& a, const Vector3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  std::array<BodyChange*, 2> bodies_;
+};
+
+// With friction that holds whatever presses.
+void solve_one_by_one(std::vector<ContactRow>& rows, std::vector<BodyChange>& bodies) {
+  for (ContactRow& row : rows) {
+    OneByOne pair(row.bodies, bodies);
+    pair.set(row.normal, std::max(pair.asked(row.normal), 0.0));
+    const double holds = row.normal.applied > 0 ? 1 : 0;
+    const std::array<double, 2> friction{holds * pair.asked(row.friction[0]), holds * pair.asked(row.friction[1])};
+    for (int i = 0; i < 2; ++i) pair.set(row.friction[i], friction[i]);
+  }
+}
+
+TEST(ContactRows, SolvedFourNumbersAtATimeGiveTheBitsOfOneByOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&] { return Vector3d(number(random), number(random), number(random)); };
+  std::vector<BodyChange> bodies(12);
+  for (BodyChange& body : bodies) body.inverse_mass = 1.5 + number(random);
+  std::vector<ContactRow> rows(100);
+  for (ContactRow& contact : rows) {
+    const int first = static_cast<int>(random() % bodies.size());
+    contact.bodies = {first, static_cast<int>((first + 1 + random() % (bodies.size() - 1)) % bodies.size())};
+    const int fixed = static_cast<int>(random() % 6);
+    if (fixed < 2) contact.bodies[fixed] = -1;
+    contact.coefficient = 1e9;
+    for (Row* row : {&contact.normal, &contact.friction[0], &contact.friction[1]}) {
+      row->direction = vector();
+      for (int i = 0; i < 2; ++i) {
+        row->moment[i] = contact.bodies[i] < 0 ? Vector3d(0, 0, 0) : vector();
+        row->turn[i] = contact.bodies[i] < 0 ? Vector3d(0, 0, 0) : vector();
+      }
+      row->scale = 0.1;
+      row->wanted = 2 + number(random);
+    }
+  }
+  auto expected_rows = rows;
+  auto expected = bodies;
+  for (int pass = 0; pass < 5; ++pass) {
+    solve_contacts(rows, bodies);
+    solve_one_by_one(expected_rows, expected);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    EXPECT_EQ(bodies[i].linear, expected[i].linear) << i;
+    EXPECT_EQ(bodies[i].angular, expected[i].angular) << i;
+    EXPECT_EQ(bodies[i].inverse_mass, expected[i].inverse_mass) << i;
+    EXPECT_GT(bodies[i].linear.norm(), 0.01) << i;
+  }
 }
 
 TEST(ContactRows, PushOverlapsApartByAsMuchAsTheyWant) {

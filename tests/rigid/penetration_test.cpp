@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <utility>
 
 #include "engine/packing/separation.h"
 #include "tests/rigid/blocks.h"
@@ -48,6 +50,73 @@ mesh::ConvexPiece random_tetrahedron(std::mt19937& random) {
     for (Vector3d& corner : corners) corner = Vector3d(coordinate(random), coordinate(random), coordinate(random));
   } while ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) < 0.1);
   return mesh::convex_pieces(mesh, add_tetrahedron(mesh, corners)).front();
+}
+
+// A prism over a regular polygon, cut into three tetrahedra for each of its sides.
+mesh::ConvexPiece prism(int sides, double height) {
+  mesh::BlockMesh<3> mesh;
+  const BodyId body = mesh.bodies.push_back({"prism", MaterialId{0}, false, Vector3d::Zero()});
+  for (const double z : {0.0, height}) {
+    mesh.nodes.push_back(Vector3d(0, 0, z));
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      mesh.nodes.push_back(Vector3d(std::cos(angle), std::sin(angle), z));
+    }
+  }
+  const auto node = [&](int level, int i) { return NodeId{static_cast<std::size_t>(level * (sides + 1) + 1 + i % sides)}; };
+  const NodeId low{0}, high{static_cast<std::size_t>(sides + 1)};
+  for (int i = 0; i < sides; ++i) {
+    mesh.elements.push_back({low, node(0, i), node(0, i + 1), node(1, i + 1)});
+    mesh.elements.push_back({low, node(0, i), node(1, i + 1), node(1, i)});
+    mesh.elements.push_back({low, node(1, i), node(1, i + 1), high});
+  }
+  const BlockId block = mesh.blocks.push_back({body, {0, mesh.nodes.size()}, {0, mesh.elements.size()}});
+  return mesh::convex_pieces(mesh, block).front();
+}
+
+TEST(Separation, OfPiecesOfAnyNumberOfFacesIsThatOfEveryAxisTried) {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  int overlapping = 0;
+  for (int sides = 3; sides <= 11; ++sides) {
+    const mesh::ConvexPiece first = prism(sides, 1), second = prism(14 - sides, 0.6);
+    ASSERT_EQ(first.faces.size(), static_cast<std::size_t>(sides) + 2);
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Quaterniond turn(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
+      const Vector3d way(coordinate(random), coordinate(random), coordinate(random));
+      const PlacedPiece a = placed(first, Pose{}), b = placed(second, Pose{1.5 * way, turn.normalized()});
+      const double expected = brute_force(a, b);
+      const Separation found = separation(a, b, 1e300);
+      overlapping += expected < 0;
+      if (expected < 0) {
+        EXPECT_NEAR(found.distance, expected, 1e-9) << sides;
+      } else {
+        EXPECT_GT(found.distance, 0) << sides;
+        EXPECT_LE(found.distance, expected + 1e-9) << sides;
+      }
+      EXPECT_NEAR(separation_along(a, b, found), found.distance, 1e-15) << sides;
+    }
+  }
+  EXPECT_GT(overlapping, 50);
+  EXPECT_LT(overlapping, 310);
+}
+
+// Neighbours in a mesh: many axes part them equally well, to rounding.
+TEST(Separation, OfPiecesThatShareCornersIsNothing) {
+  std::mt19937 random(29);
+  for (int i = 0; i < 300; ++i) {
+    const mesh::ConvexPiece first = random_tetrahedron(random);
+    const int shared = 1 + i % 3;
+    Vector3d middle = Vector3d::Zero();
+    for (int k = 0; k < shared; ++k) middle += first.vertices[k] / shared;
+    std::array<Vector3d, 4> corners;  // those that are not shared lie across what is
+    for (int k = 0; k < 4; ++k) corners[k] = k < shared ? first.vertices[k] : Vector3d(2 * middle - first.vertices[k]);
+    const double volume = (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]);
+    if (volume < 0) std::swap(corners[0], corners[1]);
+    mesh::BlockMesh<3> mesh;
+    const mesh::ConvexPiece second = mesh::convex_pieces(mesh, add_tetrahedron(mesh, corners)).front();
+    EXPECT_NEAR(separation(placed(first, Pose{}), placed(second, Pose{}), 1e300).distance, 0, 1e-14) << i;
+  }
 }
 
 TEST(Separation, OfRandomPiecesIsThatOfEveryAxisTried) {
