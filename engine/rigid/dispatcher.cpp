@@ -74,11 +74,11 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   btBroadphasePairArray& pairs = cache->getOverlappingPairArray();
   if (flights_.count() > 0) end_flights(pairs);
   add_algorithms(pairs);
-  std::vector<std::vector<News>> news = ask_all(pairs, info.m_timeStep);
+  ask_all(pairs, info.m_timeStep);
   place_blocks();
   const auto for_each_news = [&](const auto& use) {
-    run_phases(std::array<int, 1>{static_cast<int>(news.size())}, 1, [&](int, int part) {
-      for (News& at : news[static_cast<std::size_t>(part)]) {
+    run_phases(std::array<int, 1>{static_cast<int>(news_.size())}, 1, [&](int, int part) {
+      for (News& at : news_[static_cast<std::size_t>(part)]) {
         if (!at.of_pieces) use(pairs[at.pair], at);
       }
     });
@@ -86,7 +86,7 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   for_each_news([&](btBroadphasePair& pair, News& at) { look(pair, info.m_timeStep, at); });
   // A pair of compounds is as much work as many pairs of polyhedra.
   std::vector<int> compounds;
-  for (const auto& part : news) {
+  for (const auto& part : news_) {
     for (const News& at : part) {
       if (at.of_pieces) compounds.push_back(at.pair);
     }
@@ -99,7 +99,7 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
   };
   for_each_compound(
       [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.look(*blocks[0], *blocks[1], info.m_timeStep); });
-  claim(pairs, news);
+  claim(pairs);
   for_each_news([&](const btBroadphasePair& pair, const News& at) {
     const auto [first, second] = motions_of(pair);
     auto& algorithm = algorithm_of(pair);
@@ -115,8 +115,8 @@ Dispatcher::Motions Dispatcher::motions_of(const btBroadphasePair& pair) const {
 }
 
 // In the order of the pairs.
-void Dispatcher::claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) const {
-  for (const auto& part : news) {
+void Dispatcher::claim(const btBroadphasePairArray& pairs) const {
+  for (const auto& part : news_) {
     for (const News& at : part) {
       const auto [first, second] = motions_of(pairs[at.pair]);
       if (at.of_pieces) {
@@ -135,14 +135,14 @@ bool Dispatcher::stays_as_it_is(const btBroadphasePair& pair) const {
   return sleepers_.still(std::abs(first) - 1) && sleepers_.still(std::abs(second) - 1);
 }
 
-std::vector<std::vector<Dispatcher::News>> Dispatcher::ask_all(btBroadphasePairArray& pairs, double time_step) {
-  std::vector<std::vector<News>> news(chunk_count(static_cast<std::size_t>(pairs.size())));
+void Dispatcher::ask_all(btBroadphasePairArray& pairs, double time_step) {
+  news_.resize(chunk_count(static_cast<std::size_t>(pairs.size())));
   for_short_chunks(static_cast<std::size_t>(pairs.size()), [&](Chunk chunk) {
+    news_[chunk.number].clear();
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      ask(pairs[static_cast<int>(i)], static_cast<int>(i), time_step, news[chunk.number]);
+      ask(pairs[static_cast<int>(i)], static_cast<int>(i), time_step, news_[chunk.number]);
     }
   });
-  return news;
 }
 
 void Dispatcher::ask(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news) {

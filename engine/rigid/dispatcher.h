@@ -36,12 +36,11 @@ class Dispatcher final : public btCollisionDispatcher {
   };
   using Motions = std::array<const BlockMotion*, 2>;
   [[nodiscard]] Motions motions_of(const btBroadphasePair& pair) const;
-  void claim(const btBroadphasePairArray& pairs, const std::vector<std::vector<News>>& news) const;
+  void claim(const btBroadphasePairArray& pairs) const;
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);
   [[nodiscard]] bool stays_as_it_is(const btBroadphasePair& pair) const;
-  // In the order of the pairs, by parts of them.
-  std::vector<std::vector<News>> ask_all(btBroadphasePairArray& pairs, double time_step);
+  void ask_all(btBroadphasePairArray& pairs, double time_step);
   // Appends the pair with this number if it has to be looked at, and says which blocks are to be placed for it.
   void ask(btBroadphasePair& pair, int number, double time_step, std::vector<News>& news);
   void place_blocks();
@@ -53,6 +52,7 @@ class Dispatcher final : public btCollisionDispatcher {
   std::span<const BlockMotion> motions_;  // of the blocks
   std::span<packing::PlacedPiece> placed_;
   std::vector<char> to_place_;
+  std::vector<std::vector<News>> news_;  // in the order of the pairs, by parts of them; kept for their memory
 };
 
 }  // namespace scree::rigid

@@ -11,6 +11,7 @@ import resource
 import shutil
 import statistics
 import subprocess
+import sys
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -80,7 +81,14 @@ def medians(found, keys):
     return {key: statistics.median(run[key] for run in found) for key in keys}
 
 
+def need(program, target):
+    """Ends here if a program of ours has not been built."""
+    if not program.exists():
+        sys.exit(f"{program.relative_to(ROOT)}: not there; build it with: cmake --build build/release --target {target}")
+
+
 def prepare(out):
+    need(SCREE, "scree")
     out.mkdir(parents=True, exist_ok=True)
     (out / "machine.txt").write_text(machine() + "\n")
     print(machine())
