@@ -5,9 +5,7 @@ namespace scree::rigid {
 namespace {
 
 void place(const PolyhedronShape& shape, const btTransform& pose, packing::PlacedPiece& placed) {
-  Eigen::Matrix3d rotation;
-  for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(pose.getBasis()[i]).transpose();
-  packing::place(shape.piece(), rotation, from_bullet(pose.getOrigin()), placed);
+  packing::place(shape.piece(), from_bullet(pose.getBasis()), from_bullet(pose.getOrigin()), placed);
 }
 
 }  // namespace

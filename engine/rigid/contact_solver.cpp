@@ -41,6 +41,14 @@ ContactSolver::Touch touch_of(const HeldContact& contact) {
   return touch;
 }
 
+// The contacts lie in no order.
+void fetch_ahead(ContactSolver::Contacts contacts, std::size_t i, std::size_t bytes) {
+  constexpr std::size_t ahead = 4;
+  if (i + ahead >= contacts.size()) return;
+  const char* contact = reinterpret_cast<const char*>(contacts[i + ahead]);
+  for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(contact + at);
+}
+
 }  // namespace
 
 void ContactSolver::solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Motions motions, Contacts contacts,
@@ -71,6 +79,7 @@ void ContactSolver::sort(Contacts contacts) {
   entries_.resize(contacts.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      fetch_ahead(contacts, i, 64);
       Entry& entry = entries_[i];
       entry.ids = {places_[contacts[i]->blocks[0]], places_[contacts[i]->blocks[1]]};
       entry.count = moves(entry.ids) ? contacts[i]->count : 0;
@@ -111,6 +120,7 @@ void ContactSolver::set_up(Motions motions, Contacts contacts, const StepLengths
   overlaps_.resize(rows_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      fetch_ahead(contacts, i, sizeof(HeldContact));
       const Entry& entry = entries_[i];
       if (entry.count == 0) continue;
       HeldContact& contact = *contacts[i];
@@ -144,6 +154,7 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Contacts con
   touches_.resize(entries_.size());
   for_short_chunks(entries_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      fetch_ahead(contacts, i, sizeof(HeldContact));
       HeldContact& contact = *contacts[i];
       if (!moves(entries_[i].ids) && touches_[i].of == &contact) continue;
       for (int k = 0; k < entries_[i].count; ++k) {

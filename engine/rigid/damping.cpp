@@ -13,9 +13,7 @@ namespace scree::rigid {
 namespace {
 
 Eigen::Matrix3d axes(const btRigidBody& body) {
-  Eigen::Matrix3d rotation;
-  for (int i = 0; i < 3; ++i) rotation.row(i) = from_bullet(body.getWorldTransform().getBasis()[i]).transpose();
-  return rotation;
+  return from_bullet(body.getWorldTransform().getBasis());
 }
 
 // Each component comes nearer to zero by up to `change`.

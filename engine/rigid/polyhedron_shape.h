@@ -17,6 +17,11 @@ inline btVector3 to_bullet(const Eigen::Vector3d& v) {
 inline Eigen::Vector3d from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
+inline Eigen::Matrix3d from_bullet(const btMatrix3x3& m) {
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) result.row(i) = from_bullet(m[i]).transpose();
+  return result;
+}
 
 class PolyhedronShape final : public btConvexInternalShape {
  public:

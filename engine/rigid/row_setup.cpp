@@ -12,12 +12,6 @@ namespace {
 using Bodies = std::array<const BodyStart*, 2>;
 using Arms = std::array<Eigen::Vector3d, 2>;  // from the centres to the point
 
-Eigen::Matrix3d matrix_of(const btMatrix3x3& m) {
-  Eigen::Matrix3d result;
-  for (int i = 0; i < 3; ++i) result.row(i) = from_bullet(m[i]).transpose();
-  return result;
-}
-
 // One that asks for an end of the motion along `direction` and for `more` on top of that.
 void set_up_along(Row& row, const Eigen::Vector3d& direction, const Bodies& bodies, const Arms& arms, double more) {
   row.direction = direction;
@@ -59,7 +53,7 @@ BodyStart start_of(const btRigidBody& body, double time_step) {
   start.body = &body;
   start.centre = from_bullet(body.getCenterOfMassPosition());
   start.inverse_mass = body.getInvMass();
-  start.inverse_inertia = matrix_of(body.getInvInertiaTensorWorld());
+  start.inverse_inertia = from_bullet(body.getInvInertiaTensorWorld());
   start.linear = from_bullet(body.getLinearVelocity() + body.getGravity() * time_step);
   start.angular = from_bullet(body.getAngularVelocity() + body.computeGyroscopicImpulseImplicit_Body(time_step));
   return start;
