@@ -119,7 +119,7 @@ EdgeArc arc(const PlacedPiece& placed, std::size_t edge) {
 }
 
 // Do the arcs left-right of an edge and -left to -right of another one cross on the unit sphere? By the faces beside each
-// along the other one, whose direction is left x right times a positive number.
+// along the other one, whose direction is left x right times a positive number. Without a branch for each question.
 bool arcs_cross(double first_left, double first_right, double second_left, double second_right) {
   const bool second_apart = second_left * second_right < 0, first_apart = first_left * first_right < 0;
   const bool facing = second_left * first_right < 0;

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "engine/base/quad.h"
+#include "engine/rigid/fetch.h"
 
 namespace scree::rigid {
 
 namespace {
-
-constexpr std::size_t line = 64;  // bytes that memory gives at once
 
 // A vector of three numbers and whatever follows them in memory, which is carried along and never looked at.
 SCREE_INLINE Quad three(const Eigen::Vector3d& vector) {
@@ -100,8 +99,7 @@ SCREE_INLINE void rub(std::array<Row, 2>& friction, Moving& pair, double most) {
 // The two rows that will be solved after the next two.
 SCREE_INLINE void fetch_ahead(std::span<const ContactRow> rows, std::size_t next) {
   for (std::size_t i = next + 4; i < std::min(next + 6, rows.size()); ++i) {
-    const char* row = reinterpret_cast<const char*>(&rows[i]);
-    for (std::size_t at = 0; at < sizeof(ContactRow); at += line) __builtin_prefetch(row + at);
+    fetch(&rows[i], sizeof(ContactRow));
   }
 }
 

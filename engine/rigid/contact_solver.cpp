@@ -7,6 +7,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include "engine/base/phases.h"
+#include "engine/rigid/fetch.h"
 #include "engine/rigid/polyhedron_shape.h"
 
 namespace scree::rigid {
@@ -44,9 +45,7 @@ ContactSolver::Touch touch_of(const HeldContact& contact) {
 // The contacts lie in no order.
 void fetch_ahead(ContactSolver::Contacts contacts, std::size_t i, std::size_t bytes) {
   constexpr std::size_t ahead = 4;
-  if (i + ahead >= contacts.size()) return;
-  const char* contact = reinterpret_cast<const char*>(contacts[i + ahead]);
-  for (std::size_t at = 0; at < bytes; at += 64) __builtin_prefetch(contact + at);
+  if (i + ahead < contacts.size()) fetch(contacts[i + ahead], bytes);
 }
 
 }  // namespace

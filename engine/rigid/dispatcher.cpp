@@ -101,9 +101,7 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
       [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.look(*blocks[0], *blocks[1], info.m_timeStep); });
   claim(pairs);
   for_each_news([&](const btBroadphasePair& pair, const News& at) {
-    const auto [first, second] = motions_of(pair);
-    auto& algorithm = algorithm_of(pair);
-    algorithm.take(algorithm.pair_of(whole(*first), whole(*second), info.m_timeStep), at.contact);
+    algorithm_of(pair).take(sides_of(pair, info.m_timeStep), at.contact);
   });
   for_each_compound(
       [&](CompoundCollision& algorithm, const Motions& blocks) { algorithm.take(*blocks[0], *blocks[1], info.m_timeStep); });
@@ -112,6 +110,11 @@ void Dispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cache, const 
 Dispatcher::Motions Dispatcher::motions_of(const btBroadphasePair& pair) const {
   const auto [first, second] = blocks_of(pair);
   return {&motions_[first], &motions_[second]};
+}
+
+PolyhedronCollision::Pair Dispatcher::sides_of(const btBroadphasePair& pair, double time_step) const {
+  const auto [first, second] = motions_of(pair);
+  return algorithm_of(pair).pair_of(whole(*first), whole(*second), time_step);
 }
 
 // In the order of the pairs.
@@ -151,7 +154,7 @@ void Dispatcher::ask(btBroadphasePair& pair, int number, double time_step, std::
   const bool of_pieces = first->placed == nullptr || second->placed == nullptr;
   if (!of_pieces) {
     PolyhedronCollision& algorithm = algorithm_of(pair);
-    const auto asked_for = algorithm.pair_of(whole(*first), whole(*second), time_step);
+    const auto asked_for = sides_of(pair, time_step);
     if (algorithm.still_holds(asked_for)) {
       note(pair, algorithm.far(asked_for));
       return;
@@ -171,9 +174,8 @@ void Dispatcher::place_blocks() {
 }
 
 void Dispatcher::look(btBroadphasePair& pair, double time_step, News& news) const {
-  const auto [first, second] = motions_of(pair);
   PolyhedronCollision& algorithm = algorithm_of(pair);
-  const auto looked_at = algorithm.pair_of(whole(*first), whole(*second), time_step);
+  const auto looked_at = sides_of(pair, time_step);
   news.contact = algorithm.look(looked_at);
   note(pair, algorithm.far(looked_at) && news.contact.count == 0);
 }

@@ -36,6 +36,7 @@ class Dispatcher final : public btCollisionDispatcher {
   };
   using Motions = std::array<const BlockMotion*, 2>;
   [[nodiscard]] Motions motions_of(const btBroadphasePair& pair) const;
+  [[nodiscard]] PolyhedronCollision::Pair sides_of(const btBroadphasePair& pair, double time_step) const;  // of polyhedra
   void claim(const btBroadphasePairArray& pairs) const;
   void end_flights(const btBroadphasePairArray& pairs);
   void add_algorithms(btBroadphasePairArray& pairs);

@@ -17,10 +17,6 @@ namespace {
 
 using packing::PlacedPiece;
 
-btTransform relative_pose(const PolyhedronCollision::Pair& pair) {
-  return pair.first.block->pose.inverseTimes(pair.second.block->pose);
-}
-
 // A piece of a block that may meet something in a direction, by what it is of the block's surface. All is so of a convex block.
 class SurfaceSide {
  public:
@@ -74,12 +70,6 @@ PolyhedronCollision::Pair PolyhedronCollision::pair_of(const Side& first, const 
   return {first, second, reach_of(ranges_, first, second, time_step), time_step};
 }
 
-ContactPoints PolyhedronCollision::look(const Pair& pair) {
-  relative_ = relative_pose(pair);
-  moved_ = 0;
-  return evaluate(pair);
-}
-
 void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points) {
   if (points.count == 0) {
     drop_contact();
@@ -89,10 +79,15 @@ void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& sec
 }
 
 bool PolyhedronCollision::still_holds(const Pair& pair) {
-  if (evaluated_reach_ < 0) return false;
-  moved_ = way_moved(relative_, relative_pose(pair), pair.second.radius);
-  if (separation_.distance - moved_ > pair.reach) return true;
-  return moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near);
+  const btTransform relative = pair.first.block->pose.inverseTimes(pair.second.block->pose);
+  if (evaluated_reach_ >= 0) {
+    moved_ = way_moved(relative_, relative, pair.second.radius);
+    if (separation_.distance - moved_ > pair.reach) return true;
+    if (moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near)) return true;
+  }
+  relative_ = relative;
+  moved_ = 0;
+  return false;
 }
 
 // Each block may have been on the one side of its home and be on the other later. What still_holds takes for the way moved
@@ -118,7 +113,7 @@ bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separatio
   std::abort();
 }
 
-ContactPoints PolyhedronCollision::evaluate(const Pair& pair) {
+ContactPoints PolyhedronCollision::look(const Pair& pair) {
   static thread_local PlacedPiece of_first, of_second;
   const PlacedPiece &a = placed(pair.first, of_first), &b = placed(pair.second, of_second);
   const double enough = pair.reach + ranges_.near;

@@ -56,8 +56,8 @@ class PolyhedronCollision final : public OwnCollision {
   };
 
   [[nodiscard]] Pair pair_of(const Side& first, const Side& second, double time_step) const;
-  // Whether the points it has still hold, if there are any. This and the next touch nothing but their own pair, so that many
-  // may be asked at once.
+  // Whether the points it has still hold, if there are any; if not, a look has to follow. This and the next touch nothing but
+  // their own pair, so that many may be asked at once.
   [[nodiscard]] bool still_holds(const Pair& pair);
   // New points.
   [[nodiscard]] ContactPoints look(const Pair& pair);
@@ -69,7 +69,6 @@ class PolyhedronCollision final : public OwnCollision {
   [[nodiscard]] bool far(const Pair& pair) const;
 
  private:
-  [[nodiscard]] ContactPoints evaluate(const Pair& pair);
   [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
   void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(std::span<const HeldPoint> old, double near);

@@ -52,6 +52,25 @@ mesh::ConvexPiece random_tetrahedron(std::mt19937& random) {
   return mesh::convex_pieces(mesh, add_tetrahedron(mesh, corners)).front();
 }
 
+// Turned at random, up to 1 m away along each axis.
+Pose random_pose(std::mt19937& random) {
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const Eigen::Quaterniond turn(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
+  return {Vector3d(coordinate(random), coordinate(random), coordinate(random)), turn.normalized()};
+}
+
+// That of the best of all axes where the pieces overlap, else no more than that. Returns whether they do.
+bool expect_best_axis(const PlacedPiece& a, const PlacedPiece& b, const Separation& found) {
+  const double expected = brute_force(a, b);
+  if (expected < 0) {
+    EXPECT_NEAR(found.distance, expected, 1e-9);
+  } else {
+    EXPECT_GT(found.distance, 0);
+    EXPECT_LE(found.distance, expected + 1e-9);
+  }
+  return expected < 0;
+}
+
 // A prism over a regular polygon, cut into three tetrahedra for each of its sides.
 mesh::ConvexPiece prism(int sides, double height) {
   mesh::BlockMesh<3> mesh;
@@ -76,25 +95,18 @@ mesh::ConvexPiece prism(int sides, double height) {
 
 TEST(Separation, OfPiecesOfAnyNumberOfFacesIsThatOfEveryAxisTried) {
   std::mt19937 random(23);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
   int overlapping = 0;
   for (int sides = 3; sides <= 11; ++sides) {
     const mesh::ConvexPiece first = prism(sides, 1), second = prism(14 - sides, 0.6);
     ASSERT_EQ(first.faces.size(), static_cast<std::size_t>(sides) + 2);
     for (int i = 0; i < 40; ++i) {
-      const Eigen::Quaterniond turn(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
-      const Vector3d way(coordinate(random), coordinate(random), coordinate(random));
-      const PlacedPiece a = placed(first, Pose{}), b = placed(second, Pose{1.5 * way, turn.normalized()});
-      const double expected = brute_force(a, b);
+      SCOPED_TRACE(sides);
+      Pose pose = random_pose(random);
+      pose.translation *= 1.5;
+      const PlacedPiece a = placed(first, Pose{}), b = placed(second, pose);
       const Separation found = separation(a, b, 1e300);
-      overlapping += expected < 0;
-      if (expected < 0) {
-        EXPECT_NEAR(found.distance, expected, 1e-9) << sides;
-      } else {
-        EXPECT_GT(found.distance, 0) << sides;
-        EXPECT_LE(found.distance, expected + 1e-9) << sides;
-      }
-      EXPECT_NEAR(separation_along(a, b, found), found.distance, 1e-15) << sides;
+      overlapping += expect_best_axis(a, b, found);
+      EXPECT_NEAR(separation_along(a, b, found), found.distance, 1e-15);
     }
   }
   EXPECT_GT(overlapping, 50);
@@ -121,26 +133,16 @@ TEST(Separation, OfPiecesThatShareCornersIsNothing) {
 
 TEST(Separation, OfRandomPiecesIsThatOfEveryAxisTried) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> coordinate(-1, 1);
   mesh::BlockMesh<3> boxes;
   const mesh::ConvexPiece box = mesh::convex_pieces(boxes, add_box(boxes, {1, 0.7, 0.4}, Vector3d(0, 0, 0), false)).front();
   int overlapping = 0;
   for (int i = 0; i < 2000; ++i) {
     const mesh::ConvexPiece first = i % 2 == 0 ? box : random_tetrahedron(random);
     const mesh::ConvexPiece second = random_tetrahedron(random);
-    Eigen::Quaterniond turn(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
-    const Pose pose{Vector3d(coordinate(random), coordinate(random), coordinate(random)), turn.normalized()};
+    SCOPED_TRACE(i);
     const PlacedPiece a = placed(first, Pose{});
-    const PlacedPiece b = placed(second, pose);
-    const double expected = brute_force(a, b);
-    const double found = separation(a, b, 1e300).distance;
-    overlapping += expected < 0;
-    if (expected < 0) {
-      EXPECT_NEAR(found, expected, 1e-9) << i;
-    } else {
-      EXPECT_GT(found, 0) << i;
-      EXPECT_LE(found, expected + 1e-9) << i;
-    }
+    const PlacedPiece b = placed(second, random_pose(random));
+    overlapping += expect_best_axis(a, b, separation(a, b, 1e300));
   }
   EXPECT_GT(overlapping, 400);
   EXPECT_LT(overlapping, 1900);
