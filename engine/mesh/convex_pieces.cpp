@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -11,7 +12,16 @@ namespace scree::mesh {
 namespace {
 
 constexpr double allowed_dent = 1e-3;  // of the length of the edges beside it
-constexpr double one_plane = 1e-6;     // largest angle between triangles of one face [rad]
+// What may be one face: triangles whose normals differ by at most this angle [rad] and whose corners lie in one plane, but for
+// this part of the block's diagonal. All triangles of a block that was meshed here are in order by the first; corners that were
+// rounded to the digits of a file want the second.
+struct Flatness {
+  double angle;
+  double height;
+};
+constexpr Flatness exactly_flat{1e-6, 1};
+constexpr Flatness nearly_flat{0.05, 1e-4};
+constexpr double bent_by = 5e-3;  // faces at a smaller angle are nearly one [rad]
 constexpr std::int32_t opposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // corners of a tetrahedron's faces
 
 struct Surface {
@@ -118,19 +128,6 @@ bool is_convex(const Surface& surface) {
   return true;
 }
 
-// The edges that bound each group of coplanar triangles, from corner to next corner.
-std::vector<std::map<std::int32_t, std::int32_t>> outlines(const Surface& surface, const std::vector<std::int32_t>& group,
-                                                           std::int32_t groups) {
-  std::vector<std::map<std::int32_t, std::int32_t>> next(groups);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (group[surface.neighbours[t][i]] == group[t]) continue;
-      next[group[t]][surface.triangles[t][i]] = surface.triangles[t][(i + 1) % 3];
-    }
-  }
-  return next;
-}
-
 void add_edges(ConvexPiece& piece) {
   std::map<DirectedEdge, std::int32_t> owner;
   for (std::size_t f = 0; f < piece.faces.size(); ++f) {
@@ -146,21 +143,115 @@ void add_edges(ConvexPiece& piece) {
   }
 }
 
-// Keeps the points at which three or more merged faces meet: the others lie inside a face or on a straight edge.
-ConvexPiece merged(const Surface& surface) {
-  std::vector<std::int32_t> group(surface.triangles.size(), -1);
+// Triangles in groups, each to be one face.
+struct Groups {
+  std::vector<std::int32_t> of;  // each triangle
   std::vector<Eigen::Vector3d> normals;
-  for (std::size_t t = 0; t < group.size(); ++t) {
-    if (group[t] >= 0) continue;
-    const Eigen::Vector3d normal = surface.normals[t];
-    flood(surface, static_cast<std::int32_t>(t), static_cast<std::int32_t>(normals.size()), group, [&](std::int32_t n) {
-      return normal.cross(surface.normals[n]).norm() < one_plane && normal.dot(surface.normals[n]) > 0;
-    });
-    normals.push_back(normal);
+};
+
+Groups single_triangles(const Surface& surface) {
+  Groups groups{std::vector<std::int32_t>(surface.triangles.size()), surface.normals};
+  std::iota(groups.of.begin(), groups.of.end(), 0);
+  return groups;
+}
+
+double area(const Surface& surface, std::size_t triangle) {
+  const auto& c = surface.triangles[triangle];
+  return (surface.points[c[1]] - surface.points[c[0]]).cross(surface.points[c[2]] - surface.points[c[0]]).norm() / 2;
+}
+
+// Around the seeds in their order.
+Groups grown(const Surface& surface, const std::vector<std::size_t>& seeds, const Flatness& flat) {
+  Aabb<3> box;
+  for (const Eigen::Vector3d& point : surface.points) box.extend(point);
+  const double height = flat.height * box.diagonal().norm();
+  Groups groups{std::vector<std::int32_t>(surface.triangles.size(), -1), {}};
+  for (const std::size_t seed : seeds) {
+    if (groups.of[seed] >= 0) continue;
+    const Eigen::Vector3d& normal = surface.normals[seed];
+    const Eigen::Vector3d& on = surface.points[surface.triangles[seed][0]];
+    flood(surface, static_cast<std::int32_t>(seed), static_cast<std::int32_t>(groups.normals.size()), groups.of,
+          [&](std::int32_t n) {
+            const Eigen::Vector3d& other = surface.normals[n];
+            const auto& corners = surface.triangles[n];
+            return normal.cross(other).norm() < flat.angle && normal.dot(other) > 0 &&
+                   std::all_of(corners.begin(), corners.end(),
+                               [&](std::int32_t c) { return std::abs(normal.dot(surface.points[c] - on)) <= height; });
+          });
+    groups.normals.push_back(normal);
   }
+  return groups;
+}
+
+// Large triangles first, whose normals are rounded least; each face with the mean of its triangles' normals.
+Groups grown_from_the_largest(const Surface& surface) {
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) areas.push_back(area(surface, t));
+  std::vector<std::size_t> seeds(areas.size());
+  std::iota(seeds.begin(), seeds.end(), 0);
+  std::stable_sort(seeds.begin(), seeds.end(), [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  Groups groups = grown(surface, seeds, nearly_flat);
+  for (Eigen::Vector3d& normal : groups.normals) normal.setZero();
+  for (std::size_t t = 0; t < areas.size(); ++t) groups.normals[groups.of[t]] += areas[t] * surface.normals[t];
+  for (Eigen::Vector3d& normal : groups.normals) normal.normalize();
+  return groups;
+}
+
+// The edges that bound each group, from corner to next corner; nothing if one is not bounded by a single line.
+using Outline = std::map<std::int32_t, std::int32_t>;
+std::optional<std::vector<Outline>> outlines(const Surface& surface, const Groups& groups) {
+  std::vector<Outline> next(groups.normals.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (groups.of[surface.neighbours[t][i]] == groups.of[t]) continue;
+      const auto& corners = surface.triangles[t];
+      if (!next[groups.of[t]].emplace(corners[i], corners[(i + 1) % 3]).second) return std::nullopt;
+    }
+  }
+  for (const Outline& outline : next) {
+    if (outline.empty()) return std::nullopt;
+    std::size_t length = 0;
+    std::int32_t at = outline.begin()->first;
+    do {
+      at = outline.at(at);
+      ++length;
+    } while (at != outline.begin()->first && length <= outline.size());
+    if (length != outline.size()) return std::nullopt;
+  }
+  return next;
+}
+
+bool is_convex(const ConvexPiece& piece, const ConvexPiece::Face& face) {
+  const std::size_t count = face.corners.size();
+  const auto side = [&](std::size_t i) -> Eigen::Vector3d {
+    return (piece.vertices[face.corners[(i + 1) % count]] - piece.vertices[face.corners[i % count]]).normalized();
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (side(i).cross(side(i + 1)).dot(face.normal) < -allowed_dent) return false;
+  }
+  return count >= 3;
+}
+
+// Of a block with dents those that are none: the others part nothing.
+void add_ridges(ConvexPiece& piece) {
+  add_edges(piece);
+  std::erase_if(piece.edges, [&](const ConvexPiece::Edge& edge) {
+    const auto& [left, right] = edge.faces;
+    const Eigen::Vector3d along = piece.vertices[edge.corners[1]] - piece.vertices[edge.corners[0]];
+    const Eigen::Vector3d turn = piece.faces[left].normal.cross(piece.faces[right].normal);
+    if (turn.norm() < bent_by) piece.faces[left].bent = piece.faces[right].bent = true;
+    return turn.dot(along) <= 0;
+  });
+}
+
+// Keeps the points at which three or more faces meet: the others lie inside a face or on a straight edge. Nothing if a face
+// would not be a convex polygon.
+std::optional<ConvexPiece> merged(const Surface& surface, const Groups& groups) {
+  const auto bounds = outlines(surface, groups);
+  if (!bounds) return std::nullopt;
   std::vector<std::set<std::int32_t>> faces_at(surface.points.size());
-  for (std::size_t t = 0; t < group.size(); ++t) {
-    for (const std::int32_t corner : surface.triangles[t]) faces_at[corner].insert(group[t]);
+  for (std::size_t t = 0; t < groups.of.size(); ++t) {
+    for (const std::int32_t corner : surface.triangles[t]) faces_at[corner].insert(groups.of[t]);
   }
   ConvexPiece piece;
   std::vector<std::int32_t> number(surface.points.size(), -1);
@@ -169,17 +260,29 @@ ConvexPiece merged(const Surface& surface) {
     number[p] = static_cast<std::int32_t>(piece.vertices.size());
     piece.vertices.push_back(surface.points[p]);
   }
-  for (const auto& next : outlines(surface, group, static_cast<std::int32_t>(normals.size()))) {
-    auto& face = piece.faces.emplace_back(ConvexPiece::Face{normals[piece.faces.size()], {}, false});
+  for (const Outline& next : *bounds) {
+    auto& face = piece.faces.emplace_back(ConvexPiece::Face{groups.normals[piece.faces.size()], {}});
     const std::int32_t start = next.begin()->first;
     std::int32_t at = start;
     do {
       if (number[at] >= 0) face.corners.push_back(number[at]);
       at = next.at(at);
     } while (at != start);
+    if (!is_convex(piece, face)) return std::nullopt;
   }
-  add_edges(piece);
+  add_ridges(piece);
   return piece;
+}
+
+// By the first grouping that makes convex polygons, none of them bent if another one does it; single triangles are convex.
+ConvexPiece convex_piece(const Surface& surface) {
+  std::vector<std::size_t> in_order(surface.triangles.size());
+  std::iota(in_order.begin(), in_order.end(), 0);
+  const auto exact = merged(surface, grown(surface, in_order, exactly_flat));
+  const auto is_bent = [](const ConvexPiece::Face& face) { return face.bent; };
+  if (exact && std::none_of(exact->faces.begin(), exact->faces.end(), is_bent)) return *exact;
+  if (const auto nearly = merged(surface, grown_from_the_largest(surface))) return *nearly;
+  return exact ? *exact : *merged(surface, single_triangles(surface));
 }
 
 ConvexPiece tetrahedron(const BlockMesh<3>& mesh, ElementId element) {
@@ -187,7 +290,7 @@ ConvexPiece tetrahedron(const BlockMesh<3>& mesh, ElementId element) {
   for (const NodeId node : mesh.elements[element]) piece.vertices.push_back(mesh.nodes[node]);
   for (const auto& c : opposite) {
     const auto& p = piece.vertices;
-    piece.faces.push_back({(p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).normalized(), {c[0], c[1], c[2]}, false});
+    piece.faces.push_back({(p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]).normalized(), {c[0], c[1], c[2]}});
   }
   add_edges(piece);
   return piece;
@@ -246,7 +349,7 @@ std::vector<ConvexPiece> convex_pieces(const BlockMesh<3>& mesh, BlockId block) 
   const auto& elements = mesh.blocks[block].elements;
   if (elements.size() > 1) {
     const std::optional<Surface> surface = boundary_surface(mesh, block);
-    if (surface && is_convex(*surface)) return {merged(*surface)};
+    if (surface && is_convex(*surface)) return {convex_piece(*surface)};
   }
   std::vector<ConvexPiece> pieces;
   for (const ElementId e : elements) pieces.push_back(tetrahedron(mesh, e));

@@ -9,12 +9,14 @@
 
 namespace scree::mesh {
 
-// A convex polyhedron. Triangles in one plane are one face, so a meshed box has 8 vertices, 6 faces and 12 edges.
+// A convex polyhedron. Triangles in one plane are one face, so a meshed box has 8 vertices, 6 faces and 12 edges; also if its
+// corners are rounded, as those of a mesh file are (README.md).
 struct ConvexPiece {
   struct Face {
     Eigen::Vector3d normal;             // outwards, unit
     std::vector<std::int32_t> corners;  // counter-clockwise seen from outside
     bool inner = false;                 // between this piece and another of its block
+    bool bent = false;                  // another face of the piece lies nearly in its plane
   };
   struct Edge {
     std::array<std::int32_t, 2> corners;

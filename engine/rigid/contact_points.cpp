@@ -54,17 +54,42 @@ void reduce_to_four(std::vector<ContactPoint>& points, const Vector3d& normal) {
   points.resize(4);
 }
 
+const Vector3d& deepest_of(const PlacedPiece& piece, const Vector3d& normal) {
+  return *std::min_element(piece.vertices.begin(), piece.vertices.end(),
+                           [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
+}
+
 // An overlap without a contact would grow unseen, and what is closer than the clearance come closer. It has none if the face
 // that was clipped does not hold the deepest vertex, which is one overlap in a thousand. Other points of the pair bear an
 // overlap as well as the deepest (README.md); a clearance they do not keep.
 void add_deepest(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident, double clearance,
                  std::vector<ContactPoint>& points) {
   const Vector3d& normal = reference.normals[face];
-  const Vector3d& deepest =
-      *std::min_element(incident.vertices.begin(), incident.vertices.end(),
-                        [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
+  const Vector3d& deepest = deepest_of(incident, normal);
   const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
   if (distance < clearance) points.push_back({deepest - distance * normal, deepest, distance});
+}
+
+// Whether it lies over the face, seen along the face's normal.
+bool is_over(const PlacedPiece& piece, std::int32_t face, const Vector3d& point) {
+  const auto& rim = piece.piece->faces[face].corners;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Vector3d& from = piece.vertices[rim[i]];
+    const Vector3d& to = piece.vertices[rim[(i + 1) % rim.size()]];
+    if ((to - from).cross(piece.normals[face]).dot(point - from) > 0) return false;
+  }
+  return true;
+}
+
+// Of two faces that are nearly one the most opposed may not hold the deepest vertex, which then bears the pair beside it.
+bool deepest_is_missed(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident, std::size_t opposed,
+                       const std::vector<ContactPoint>& points) {
+  if (!incident.piece->faces[opposed].bent) return false;
+  const Vector3d& normal = reference.normals[face];
+  const Vector3d& deepest = deepest_of(incident, normal);
+  const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
+  return is_over(reference, face, deepest) &&
+         std::all_of(points.begin(), points.end(), [&](const ContactPoint& p) { return p.distance > distance; });
 }
 
 // Points of `incident` against a face of `reference`, whose points come first.
@@ -74,7 +99,8 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
   const auto& rim = reference.piece->faces[face].corners;
   Polygon polygon;
   Polygon scratch;
-  for (const std::int32_t corner : incident.piece->faces[most_opposed_face(incident, normal)].corners) {
+  const std::size_t opposed = most_opposed_face(incident, normal);
+  for (const std::int32_t corner : incident.piece->faces[opposed].corners) {
     polygon.push_back(incident.vertices[corner]);
   }
   for (std::size_t i = 0; i < rim.size() && !polygon.empty(); ++i) {
@@ -90,7 +116,8 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
   const bool bears =
       clearance > 0 ? std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) { return p.distance < clearance; })
                     : !points.empty();
-  if (!bears) add_deepest(reference, face, incident, clearance, points);
+  if (!bears || deepest_is_missed(reference, face, incident, opposed, points))
+    add_deepest(reference, face, incident, clearance, points);
   if (points.size() > 4) reduce_to_four(points, normal);
   return points;
 }

@@ -55,6 +55,10 @@ class SurfaceSide {
   const CompoundShape* compound_ = nullptr;  // null: a convex block
 };
 
+double restitution_of(const Side& first, const Side& second) {
+  return std::min(first.block->body->getRestitution(), second.block->body->getRestitution());
+}
+
 }  // namespace
 
 double reach_of(const ContactRanges& ranges, const Side& first, const Side& second, double time_step) {
@@ -83,11 +87,17 @@ bool PolyhedronCollision::still_holds(const Pair& pair) {
   if (evaluated_reach_ >= 0) {
     moved_ = way_moved(relative_, relative, pair.second.radius);
     if (separation_.distance - moved_ > pair.reach) return true;
-    if (moved_ < ranges_.still && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near)) return true;
+    if (moved_ < ranges_.still && !may_bounce(pair) && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near))
+      return true;
   }
   relative_ = relative;
   moved_ = 0;
   return false;
+}
+
+// Whether points rebound is decided where they are made.
+bool PolyhedronCollision::may_bounce(const Pair& pair) const {
+  return pair.reach - ranges_.near > ranges_.bounce_speed * pair.time_step && restitution_of(pair.first, pair.second) > 0;
 }
 
 // Each block may have been on the one side of its home and be on the other later. What still_holds takes for the way moved
@@ -128,7 +138,9 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
     const auto real =
         packing::separation_by(a, b, ranges_.face_bias, [&](const packing::Separation& at) { return on_surfaces(pair, at); });
     if (separation_.distance > 0 && real.distance <= 0) return {};
-    if (real.distance > -ranges_.near) separation_ = real;
+    const bool none = real.distance <= -ranges_.near;
+    if (none && separation_.distance > -ranges_.near) return {};
+    if (!none) separation_ = real;
   }
   return contact_points(a, b, separation_, pair.reach, ranges_.clearance);
 }
@@ -167,9 +179,9 @@ void PolyhedronCollision::take(const Pair& pair, const ContactPoints& points) {
 // A point that is going to bounce in this step is therefore said to touch already, so that it leaves with exactly the speed its
 // restitution asks for, and one that is not has no restitution.
 void PolyhedronCollision::set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const {
-  const btRigidBody &first = *pair.first.block->body, &second = *pair.second.block->body;
-  const double restitution = std::min(first.getRestitution(), second.getRestitution());
+  const double restitution = restitution_of(pair.first, pair.second);
   if (restitution <= 0) return;
+  const btRigidBody &first = *pair.first.block->body, &second = *pair.second.block->body;
   const auto velocity = [](const btRigidBody& body, const Eigen::Vector3d& point_of) {
     return from_bullet(body.getVelocityInLocalPoint(to_bullet(point_of) - body.getWorldTransform().getOrigin()));
   };

@@ -8,19 +8,10 @@
 #include "engine/packing/separation.h"
 #include "engine/rigid/block_motion.h"
 #include "engine/rigid/contact_points.h"
+#include "engine/rigid/contact_ranges.h"
 #include "engine/rigid/held_contacts.h"
 
 namespace scree::rigid {
-
-// Lengths of the contact search; the world derives them from the size of the blocks.
-struct ContactRanges {
-  double near = 0;          // points nearer than this, plus what the pair may approach in a step, become contacts [m]
-  double face_bias = 0;     // see packing::separation [m]
-  double still = 0;         // a pair that moved less than this since its points were computed keeps them [m]
-  double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
-  double home = 0;          // range of Homes [m]
-  double clearance = 0;     // at which two blocks touch [m]
-};
 
 // How near points of two blocks, or of pieces of theirs, must be to become contacts in a step [m].
 double reach_of(const ContactRanges& ranges, const Side& first, const Side& second, double time_step);
@@ -69,6 +60,7 @@ class PolyhedronCollision final : public OwnCollision {
   [[nodiscard]] bool far(const Pair& pair) const;
 
  private:
+  [[nodiscard]] bool may_bounce(const Pair& pair) const;
   [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
   void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(std::span<const HeldPoint> old, double near);

@@ -29,35 +29,8 @@ namespace scree::rigid {
 
 namespace {
 
-// The cube root of a block's volume [m].
-double size_of(const mesh::BlockMesh<3>& mesh, const mesh::Block& block) {
-  double volume = 0;
-  for (const ElementId e : block.elements) volume += mesh::element_volume(mesh, e);
-  return std::cbrt(volume);
-}
-
 // Part of an overlap that is undone in a step.
 constexpr double overlap_undone = 0.2;
-
-// A typical length of the free blocks, to which the lengths of the contact search are tied: their mean size [m].
-double length_scale(const mesh::BlockMesh<3>& mesh) {
-  double sum = 0;
-  double count = 0;
-  for (const mesh::Block& block : mesh.blocks) {
-    if (mesh.bodies[block.body].fixed) continue;
-    sum += size_of(mesh, block);
-    ++count;
-  }
-  return count > 0 ? sum / count : 1.0;
-}
-
-// The fractions are those measured to work on the pile of 25 mm blocks: 0.25 mm, 0.2 mm, 50 um and, the last, 15 um
-// (README.md).
-ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& options) {
-  const double scale = length_scale(mesh);
-  const double bounce_speed = 2 * options.gravity.norm() * options.step;
-  return {0.01 * scale + options.clearance, 0.008 * scale, 2e-3 * scale, bounce_speed, 6e-4 * scale, options.clearance};
-}
 
 mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
   for (auto& vertex : piece.vertices) vertex = by * vertex;

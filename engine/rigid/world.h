@@ -65,9 +65,9 @@ class World {
   void wake_what_is_touched();
   void add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Material& material);
 
-  std::unique_ptr<Bullet> bullet_;
-  std::vector<Item> items_;     // one per block
-  std::vector<BlockId> order_;  // in which the free blocks are let go
+  std::vector<Item> items_;         // one per block
+  std::unique_ptr<Bullet> bullet_;  // goes first: it looks at the bodies once more
+  std::vector<BlockId> order_;      // in which the free blocks are let go
   std::size_t released_ = 0;
   std::vector<BlockId> free_;
   std::vector<btRigidBody*> free_bodies_;

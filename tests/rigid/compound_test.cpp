@@ -100,6 +100,19 @@ TEST(Compounds, LetABlockSlideOverTheirElementsAsOverASolid) {
   EXPECT_LT(pose.rotation.vec().norm(), 1e-9);
 }
 
+// Where neither piece has a face of a surface in the plane between them, an overlap by rounding is none.
+TEST(Compounds, SlideOverEachOtherWithoutBeingStoppedAtSeams) {
+  for (const double shift : {0.0, 0.013, 0.05}) {
+    mesh::BlockMesh<3> mesh = dented_plate();
+    const BlockId l = add_l(mesh, 2 * width, {0.2, shift - 0.05, 0});
+    mesh.bodies[mesh.blocks[l].body].velocity = {1.2, 0, 0};
+    const Pose pose = settle(mesh, material(0), for_time(0.5)).poses[l];
+    EXPECT_NEAR(pose.translation.x(), 0.6, 1e-9) << shift;
+    EXPECT_LT(pose.translation.tail<2>().norm(), 1e-9) << shift;
+    EXPECT_LT(pose.rotation.vec().norm(), 1e-9) << shift;
+  }
+}
+
 TEST(Compounds, AreStoppedHoweverFastTheyCome) {
   mesh::BlockMesh<3> mesh = plate();
   const BlockId l = add_l(mesh, 2 * width, {0, 0, 0.5});

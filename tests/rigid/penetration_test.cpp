@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -181,6 +182,74 @@ TEST(ConvexPieces, ABlockWithAnIndentedEdgeIsItsElements) {
   add_box(mesh, {1, 1, 1}, Vector3d(0, 0, 0), false);
   mesh.nodes[NodeId{7}] = Vector3d(0.2, 0.2, 0.2);  // one corner pushed in
   EXPECT_EQ(mesh::convex_pieces(mesh, BlockId{0}).size(), 6U);
+}
+
+// A box of n x n squares a side, its corners rounded to multiples of `digit`, turned; a fan of tetrahedra about its middle.
+mesh::BlockMesh<3> rounded_box(int n, double digit) {
+  mesh::BlockMesh<3> mesh;
+  const BodyId body = mesh.bodies.push_back({"box", MaterialId{0}, false, Vector3d::Zero()});
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  std::map<std::array<int, 3>, NodeId> nodes;
+  const NodeId middle = mesh.nodes.push_back(Vector3d::Zero());
+  const auto node = [&](std::array<int, 3> at) {
+    const auto [found, fresh] = nodes.emplace(at, NodeId{mesh.nodes.size()});
+    if (fresh) {
+      const Vector3d exact = turn * (0.1 * (Vector3d(at[0], at[1], at[2]) / n - Vector3d::Constant(0.5)));
+      mesh.nodes.push_back(digit > 0 ? Vector3d((exact / digit).array().round() * digit) : exact);
+    }
+    return found->second;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int height : {0, n}) {
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          const auto corner = [&](int a, int b) {
+            std::array<int, 3> at{};
+            at[axis] = height;
+            at[(axis + 1) % 3] = i + a;
+            at[(axis + 2) % 3] = j + b;
+            return node(at);
+          };
+          std::array<std::array<NodeId, 3>, 2> halves{
+              {{corner(0, 0), corner(1, 0), corner(1, 1)}, {corner(0, 0), corner(1, 1), corner(0, 1)}}};
+          for (auto& half : halves) {
+            if (height == 0) std::swap(half[1], half[2]);
+            mesh.elements.push_back({middle, half[0], half[1], half[2]});
+          }
+        }
+      }
+    }
+  }
+  mesh.blocks.push_back({body, {0, mesh.nodes.size()}, {0, mesh.elements.size()}});
+  return mesh;
+}
+
+TEST(ConvexPieces, ABoxWhoseCornersAreRoundedIsOnePieceOfSixFaces) {
+  for (const double digit : {0.0, 6e-9, 1e-7}) {
+    for (const int n : {1, 3, 14, 20}) {
+      const auto pieces = mesh::convex_pieces(rounded_box(n, digit), BlockId{0});
+      ASSERT_EQ(pieces.size(), 1) << n << " " << digit;
+      EXPECT_EQ(pieces[0].faces.size(), 6) << n << " " << digit;
+      EXPECT_EQ(pieces[0].vertices.size(), 8) << n << " " << digit;
+      EXPECT_EQ(pieces[0].edges.size(), 12) << n << " " << digit;
+    }
+  }
+}
+
+// Rounded more: faces are bent along their diagonals, inwards or outwards, and the box lies on them all the same.
+TEST(Penetration, ABoxWithDentedFacesLiesOnAPlateAsDeepAsTheyAre) {
+  for (const double digit : {1e-7, 1e-6, 1e-5}) {
+    for (const int n : {1, 2}) {
+      mesh::BlockMesh<3> mesh = rounded_box(n, digit);
+      const Eigen::Quaterniond upright = Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized())).conjugate();
+      for (Vector3d& node : mesh.nodes) node = upright * node + Vector3d(0, 0, 0.052);
+      add_box(mesh, {1, 1, 0.1}, Vector3d(0, 0, -0.05), true);
+      rigid::SettleOptions options = rigid::testing::for_time(0.5);
+      const auto packing = rigid::settle(mesh, rigid::testing::material(0.5), options);
+      EXPECT_NEAR(packing.settled->top, 0.1, 3 * digit + 1e-6) << digit << " " << n;
+      EXPECT_LT(packing.settled->max_penetration, 3 * digit + 1e-6) << digit << " " << n;
+    }
+  }
 }
 
 TEST(ConvexPieces, TwoLooseBoxesInOneBlockAreNotConvex) {
