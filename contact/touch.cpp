@@ -102,6 +102,14 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   const double true_gap = direction.dot(own[side] - target_start);
   if (std::abs(gap) > tolerance && std::abs(true_gap) > tolerance) return std::nullopt;
 
+  // Edges that end in one corner, as in a mesh that conforms, cross there by rounding at most.
+  const double rounding = 1e-9 * surface.lengths[owner];
+  for (const Point<3>* mine : {&own[side], &own[(side + 1) % 3]}) {
+    for (const Point<3>* its : {&target_start, &target_end}) {
+      if ((*mine - *its).squaredNorm() <= rounding * rounding) return std::nullopt;
+    }
+  }
+
   const SurfaceEdge& own_edge = surface.edges[surface.face_edges[owner][side]];
   if (!stands_out(surface, other, direction) || !stands_out(surface, own_edge, -direction)) return std::nullopt;
   return EdgeTouch{gap, crossing->along_a, crossing->along_b};

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/mesh/make_blocks.h"
 #include "tests/contact/builders.h"
 
 namespace scree::contact {
@@ -168,6 +169,21 @@ TEST(FindContacts, OfACubeOfLooseTetrahedraAreAllInnerFacesAndNoSemiEdges) {
   EXPECT_EQ(set.semi_springs, 27 * 6 * 12);
   EXPECT_EQ(set.count(Kind::point_face), 27 * 6 * 12 - 6 * 9 * 2 * 3);
   EXPECT_EQ(set.count(Kind::edge_edge), 0);
+}
+
+// As a mesher makes them, of all shapes: edges that share a corner only do not cross.
+TEST(FindContacts, OfAMeshThatConformsAreNoSemiEdges) {
+  for (const double size : {0.8, 0.5}) {
+    mesh::BodySpec body;
+    body.name = "box";
+    body.shape = mesh::Box{.size = {1, 0.8, 1.1}};
+    body.mesh_size = size;
+    body.blocks = mesh::BlockRule::per_element;
+    body.material = MaterialId{0};
+    const auto set = find_contacts<3>(mesh::make_blocks<3>({body}), {});
+    EXPECT_GT(set.count(Kind::point_face), 100) << size;
+    EXPECT_EQ(set.count(Kind::edge_edge), 0) << size;
+  }
 }
 
 TEST(FindContacts, ComeInTheOrderOfOwners) {
