@@ -13,6 +13,10 @@ namespace {
 
 using Kind = InputValue::Kind;
 
+std::string how_many(std::size_t items) {
+  return items == 0 ? "empty" : fmt::format("a list of {}", items);
+}
+
 std::string joined(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
@@ -48,7 +52,7 @@ class Checker {
   void check_list(const InputValue& value, const KeyNode& node, Checked& checked) {
     if (value.kind != Kind::list) return refuse(checked, describe(value));
     checked.sound = true;
-    if (!node.key->range.holds(static_cast<double>(value.items.size()))) return refuse(checked, "empty");
+    if (!node.key->range.holds(static_cast<double>(value.items.size()))) return refuse(checked, how_many(value.items.size()));
     for (std::size_t i = 0; i < value.items.size(); ++i) {
       checked.items.push_back(check(value.items[i], *node.children.front().second, fmt::format("{}[{}]", checked.path, i)));
     }
@@ -87,7 +91,8 @@ class Checker {
 
   void check_names(const InputValue& value, const KeyNode& any, Checked& checked) {
     const auto count = static_cast<double>(value.entries.size());
-    if (checked.key->type == KeyType::names && !checked.key->range.holds(count)) refuse(checked, "empty");
+    if (checked.key->type == KeyType::names && !checked.key->range.holds(count))
+      refuse(checked, how_many(value.entries.size()));
     for (const InputEntry& entry : value.entries) {
       const std::string path = joined(checked.path, entry.name);
       if (!is_plain_name(entry.name)) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
+#include <nlohmann/json.hpp>
 
 namespace scree {
 
@@ -29,6 +30,16 @@ SourceLocation location(const std::string& file, const YAML::Mark& mark) {
   throw InputError(std::move(problem));
 }
 
+// What JSON takes, which all that is said of a run is written in.
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
 // Turns nodes into data. Aliases are copied, so that a list holding itself would be endless and nested aliases grow without
 // bound; no scene comes near these limits.
 class Converter {
@@ -46,7 +57,7 @@ class Converter {
     }
     if (node.IsScalar()) {
       value.kind = InputValue::Kind::scalar;
-      value.text = node.Scalar();
+      value.text = text_of(node, value.where);
     } else if (node.IsSequence()) {
       value.kind = InputValue::Kind::list;
       for (const auto& item : node) value.items.push_back(convert(item, value.where, depth + 1));
@@ -60,6 +71,12 @@ class Converter {
   std::vector<Problem> problems;
 
  private:
+  static std::string text_of(const YAML::Node& node, const SourceLocation& where) {
+    std::string text = node.Scalar();
+    if (!is_utf8(text)) refuse(where, "no UTF-8 text", "", "Save it as UTF-8; a byte there belongs to another encoding");
+    return text;
+  }
+
   void add_entry(InputValue& map, const YAML::Node& name, const YAML::Node& node, int depth) {
     InputEntry entry;
     entry.where = location(file_, name.Mark());
@@ -67,7 +84,7 @@ class Converter {
       problems.push_back({entry.where, "a key", "not a word", "", "Write a name before the colon"});
       return;
     }
-    entry.name = name.Scalar();
+    entry.name = text_of(name, entry.where);
     entry.value = convert(node, entry.where, depth + 1);
     if (const InputValue* first = map.find(entry.name)) {
       const std::string rule = fmt::format("the first is at line {}", first->where.line);

@@ -72,6 +72,7 @@ std::vector<Key> with_implied(std::vector<Key> keys) {
 
 std::string entry_words(const Key& key, std::string_view what) {
   if (key.range.low < 1) return fmt::format("a {}", what);
+  if (key.range.low == key.range.high) return fmt::format("a {} of {}", what, key.range.low);
   return fmt::format("a {}, at least {}", what, key.range.low);
 }
 

@@ -24,6 +24,11 @@ constexpr double json_interval = 1;        // between two objects [s]
 
 using Json = nlohmann::ordered_json;
 
+// A path in it may be of any bytes.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -98,7 +103,7 @@ void Progress::finish(const std::string& text) {
 }
 
 void Progress::note(const std::string& text) {
-  if (mode_ == ProgressMode::json) return print(Json{{"event", "note"}, {"text", text}}.dump());
+  if (mode_ == ProgressMode::json) return print(line_of({{"event", "note"}, {"text", text}}));
   print(text);
 }
 
@@ -107,7 +112,7 @@ void Progress::end(const Ending& ending) {
     Json json{
         {"event", "end"}, {"status", ending.status}, {"exit_status", ending.exit_status}, {"directory", ending.directory}};
     if (!ending.reasons.empty()) json["reasons"] = ending.reasons;
-    return print(json.dump());
+    return print(line_of(json));
   }
   const char* no_colour = std::getenv("NO_COLOR");
   const bool colour = mode_ == ProgressMode::terminal && (no_colour == nullptr || *no_colour == '\0');
@@ -117,17 +122,17 @@ void Progress::end(const Ending& ending) {
 }
 
 void Progress::tell_start(const std::string& text) {
-  print(Json{{"event", "start"}, {"stage", stage_}, {"text", text}}.dump());
+  print(line_of({{"event", "start"}, {"stage", stage_}, {"text", text}}));
 }
 
 void Progress::tell_update(const std::string& text) {
   Json json{{"event", "progress"}, {"stage", stage_}, {"fraction", fraction_}, {"text", text}};
   if (rate_ > 0) json["seconds_left"] = std::max(0.0, 1 - fraction_) / rate_;
-  print(json.dump());
+  print(line_of(json));
 }
 
 void Progress::tell_finish(const std::string& text) {
-  print(Json{{"event", "finish"}, {"stage", stage_}, {"seconds", clock_() - started_}, {"text", text}}.dump());
+  print(line_of({{"event", "finish"}, {"stage", stage_}, {"seconds", clock_() - started_}, {"text", text}}));
 }
 
 std::string Progress::time_left() const {

@@ -1,5 +1,6 @@
 #include "engine/output/cubic_reading.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/QR>
@@ -14,11 +15,16 @@ constexpr double least_reach = 2.01;
 constexpr double largest_reach = 4.01;
 // Columns of the fit that are this dependent on the others are taken for dependent.
 constexpr double rank_threshold = 1e-6;
+// Nodes that are closer than this along an axis, in cells, are of one layer.
+constexpr double layer_thickness = 1e-3;
 
-// Exponents of the monomials up to a degree, the constant one first.
 template <int dim>
-std::vector<std::array<int, dim>> exponents(int degree) {
-  std::vector<std::array<int, dim>> all;
+using Powers = std::array<int, dim>;
+
+// Exponents of the monomials up to a degree and, of each axis, up to `most`; the constant one first.
+template <int dim>
+std::vector<Powers<dim>> exponents(int degree, const Powers<dim>& most) {
+  std::vector<Powers<dim>> all;
   for (int sum = 0; sum <= degree; ++sum) {
     for (int i = 0; i <= sum; ++i) {
       if constexpr (dim == 2) {
@@ -28,6 +34,9 @@ std::vector<std::array<int, dim>> exponents(int degree) {
       }
     }
   }
+  std::erase_if(all, [&](const Powers<dim>& powers) {
+    return !std::equal(powers.begin(), powers.end(), most.begin(), [](int power, int bound) { return power <= bound; });
+  });
   return all;
 }
 
@@ -46,12 +55,26 @@ struct Surroundings {
       places.push_back(place);
     }
   }
+
+  // The powers of each axis that its layers of nodes determine: across a plate of one cell a line.
+  [[nodiscard]] Powers<dim> powers() const {
+    Powers<dim> most;
+    for (int axis = 0; axis < dim; ++axis) {
+      std::vector<double> heights;
+      for (const Point<dim>& place : places) heights.push_back(place[axis]);
+      std::sort(heights.begin(), heights.end());
+      int layers = heights.empty() ? 0 : 1;
+      for (std::size_t i = 1; i < heights.size(); ++i) layers += heights[i] - heights[i - 1] > layer_thickness ? 1 : 0;
+      most[static_cast<std::size_t>(axis)] = layers - 1;
+    }
+    return most;
+  }
 };
 
 // The weights of the nodes in the constant term of the polynomial; none if the nodes do not determine it.
 template <int dim>
-std::vector<double> fit(const Surroundings<dim>& around, int degree) {
-  const auto monomials = exponents<dim>(degree);
+std::vector<double> fit(const Surroundings<dim>& around, int degree, const Powers<dim>& most) {
+  const auto monomials = exponents<dim>(degree, most);
   const auto rows = static_cast<Eigen::Index>(around.nodes.size());
   const auto columns = static_cast<Eigen::Index>(monomials.size());
   if (rows < columns) return {};
@@ -85,10 +108,11 @@ std::vector<double> fit(const Surroundings<dim>& around, int degree) {
 
 template <int dim>
 Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent) {
+  const Powers<dim> most = Surroundings<dim>(mesh, block, point, extent, largest_reach).powers();
   for (int degree = highest_degree; degree > 0; --degree) {
     for (double reach = least_reach; reach <= largest_reach; ++reach) {
       Surroundings<dim> around(mesh, block, point, extent, reach);
-      std::vector<double> weights = fit(around, degree);
+      std::vector<double> weights = fit<dim>(around, degree, most);
       if (!weights.empty()) return {std::move(around.nodes), std::move(weights)};
     }
   }

@@ -15,8 +15,9 @@ struct Stencil {
 };
 
 // From the nodes of the block within some cells of the size of `extent` [m] around: least squares, near nodes counting most. In
-// a grid of four layers or more it is exact for cubic fields; where there are fewer nodes, for quadratic or linear ones; empty
-// where not even those are determined.
+// a grid of four layers or more along each axis it is exact for cubic fields; along an axis with fewer, for what these
+// determine (two: a line). Where nodes are few otherwise, for quadratic or linear fields; empty where not even those are
+// determined.
 template <int dim>
 Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent);
 

@@ -8,6 +8,7 @@
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
@@ -59,17 +60,19 @@ Range range_of(vtkDataArray& array, const Picture& picture) {
   return {0, *at};
 }
 
+// Through memory: what is wrong with the file is then said as of all others.
 void save(vtkImageData& image, const std::filesystem::path& png) {
-  write_atomically(png, [&](const std::filesystem::path& temporary) {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(&image);
-    writer->SetFileName(temporary.c_str());
-    writer->Write();
-    if (writer->GetErrorCode() != vtkErrorCode::NoError) {
-      throw RunError(fmt::format("{}: could not be written ({})", png.string(),
-                                 vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
-    }
-  });
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(&image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (bytes == nullptr) {
+    throw RunError(
+        fmt::format("{}: could not be made ({})", png.string(), vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
+  }
+  write_text(png, {reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
+                   static_cast<std::size_t>(bytes->GetNumberOfValues())});
 }
 
 // As many frames as can be seen in the time, evenly spread; the last is always one of them.

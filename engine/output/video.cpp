@@ -32,7 +32,7 @@ Words command(const std::filesystem::path& target, const std::string& container,
   add({"-i", "-", "-vf", "vflip", "-pix_fmt", "yuv420p"});
   if (container == "webm") add({"-c:v", "libvpx-vp9", "-crf", "32", "-b:v", "0", "-row-mt", "0", "-cpu-used", "4"});
   if (container == "mp4") add({"-c:v", "libx264", "-crf", "21", "-movflags", "+faststart"});
-  add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-f", container, target.string()});
+  add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-f", container, "file:" + target.string()});
   return words;
 }
 

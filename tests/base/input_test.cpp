@@ -41,6 +41,13 @@ TEST(Input, AliasesAreCopied) {
   EXPECT_EQ(root.find("b")->find("d")->text, "1");
 }
 
+TEST(Input, TextOfAnotherEncodingIsRefusedWhereItStands) {
+  const std::string said = " the file is no UTF-8 text. Save it as UTF-8; a byte there belongs to another encoding";
+  EXPECT_EQ(message_of("a: 1\ntitle: K\xfchlung\n"), "s.yaml:2:8:" + said);
+  EXPECT_EQ(message_of("K\xfchlung: 1\n"), "s.yaml:1:1:" + said);
+  EXPECT_EQ(parse_yaml("title: K\xc3\xbchlung  # K\xfchl\n", "s.yaml").find("title")->text, "K\xc3\xbchlung");
+}
+
 TEST(Input, AnEmptyFileIsEmpty) {
   EXPECT_EQ(parse_yaml("", "s.yaml").kind, InputValue::Kind::empty);
   EXPECT_EQ(parse_yaml("# nothing\n", "s.yaml").kind, InputValue::Kind::empty);

@@ -83,6 +83,23 @@ TEST(Probes, ReadCubicFieldsExactlyInGridsIfAskedTo) {
   EXPECT_GT(std::abs(value_at(locate_probes(mesh, {{"p", inside}})[0], field) - cubic(inside)), 1e-3);
 }
 
+// Across the bar two layers of nodes determine a line, and along it they are as many as a cubic needs.
+TEST(Probes, ReadFieldsAlongABarOfOneCellAsFarAsItsLayersDetermineThem) {
+  mesh::BodySpec body;
+  body.name = "bar";
+  body.shape = mesh::Box{.size = {1, 0.1, 0.1}};
+  body.mesh_size = 0.1;
+  body.cells = mesh::CellKind::hexahedron;
+  body.material = MaterialId{0};
+  const auto mesh = mesh::make_blocks<3>({body});
+  const auto along = [](const Eigen::Vector3d& at) { return 1 + std::pow(at.x(), 3) - at.x() * at.x() * at.y() + 2 * at.z(); };
+  Eigen::VectorXd field(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const NodeId node : mesh.nodes.ids()) field[node.value()] = along(mesh.nodes[node]);
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(0.03, 0, 0), Eigen::Vector3d(-0.48, 0.02, -0.05)}) {
+    EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point}}, Reading::cubic)[0], field), along(point), 1e-10);
+  }
+}
+
 TEST(Probes, TheBoundaryBelongsToTheBlock) {
   const auto mesh = two_tets();
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.4, 0), Eigen::Vector3d(0.1, 0.2, 0.7),

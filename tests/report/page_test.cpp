@@ -57,6 +57,12 @@ TEST(Chart, TicksAreRoundAndEncloseTheValues) {
                                              testing::DoubleEq(0.36), testing::DoubleEq(0.38), testing::DoubleEq(0.4)));
   EXPECT_LE(ticks(5, 5).front(), 5);
   EXPECT_GT(ticks(5, 5).back(), 5);
+  for (const double rounded : {0.2, 308.15, -7e9}) {
+    const auto marks = ticks(rounded, rounded + std::abs(rounded) * 1e-15);
+    EXPECT_THAT(marks, testing::SizeIs(testing::AllOf(testing::Ge(2), testing::Le(8)))) << rounded;
+    EXPECT_LE(marks.front(), rounded);
+    EXPECT_GT(marks.back(), rounded);
+  }
 }
 
 TEST(Chart, ACurveRunsFromCornerToCornerOfItsAxes) {

@@ -75,7 +75,8 @@ std::string drawn(const Curve& curve, const Axis& x, const Axis& y, const char* 
 }  // namespace
 
 std::vector<double> ticks(double low, double high) {
-  if (!(high > low)) high = low + std::max(1.0, std::abs(low));
+  // What differs by rounding alone is one value.
+  if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) high = low + std::max(1.0, std::abs(low));
   const double power = std::pow(10, std::floor(std::log10(high - low)));
   for (const double factor : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0}) {
     const double step = factor * power;
