@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/mesh/cells.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/part_in_box.h"
-#include "thermal/fluxes.h"
+#include "thermal/block_conduction.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
 #include "thermal/problems.h"
@@ -51,7 +52,7 @@ class Sample {
 
   [[nodiscard]] EffectiveConductivity<dim> measure() {
     EffectiveConductivity<dim> result;
-    for (const ElementPart& part : inside_) result.solid_fraction += part.volume / window_.volume();
+    for (const PartInside<dim>& part : inside_) result.solid_fraction += part.volume / window_.volume();
     result.volume_mean = volume_mean();
     result.upper = linear_temperature();
     for (int axis = 0; axis < dim; ++axis) result.along[axis] = between_plates(axis);
@@ -62,13 +63,13 @@ class Sample {
  private:
   using Tensor = typename EffectiveConductivity<dim>::Tensor;
 
+  [[nodiscard]] const Material& material_of(const PartInside<dim>& part) const {
+    return materials_[mesh_.bodies[mesh_.blocks[part.block].body].material];
+  }
+
   [[nodiscard]] double volume_mean() const {
-    const Table<ElementId, BlockId> blocks = mesh::element_blocks(mesh_);
     double sum = 0;
-    for (const ElementPart& part : inside_) {
-      const Material& material = materials_[mesh_.bodies[mesh_.blocks[blocks[part.element]].body].material];
-      sum += mean_over_axes<dim>(*material.conductivity) * part.volume;
-    }
+    for (const PartInside<dim>& part : inside_) sum += mean_over_axes<dim>(*material_of(part).conductivity) * part.volume;
     return sum / window_.volume();
   }
 
@@ -118,9 +119,14 @@ class Sample {
 
   // Mean over the window of the flux, voids at 0 [W/m2].
   [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
-    const auto fluxes = element_fluxes(mesh_, materials_, model_.rows.to_nodes(temperature));
     Point<dim> sum = Point<dim>::Zero();
-    for (const ElementPart& part : inside_) sum += part.volume * fluxes[part.element.index()];
+    for (const PartInside<dim>& part : inside_) {
+      const auto along = gradient<dim>([&](int corner, int axis) { return mesh_.nodes[part.nodes[corner]][axis]; },
+                                       [&](int corner) { return temperature[model_.rows[part.nodes[corner]].value()]; });
+      const Conductivity& conductivity = *material_of(part).conductivity;
+      const Tensor tensor = *conductivity.value.constant() * conductivity_ratios<dim>(conductivity, mesh_.blocks[part.block]);
+      sum += part.volume * flux<dim>(tensor, Point<dim>(along.data()));
+    }
     return sum / window_.volume();
   }
 
@@ -156,7 +162,7 @@ class Sample {
   };
 
   // The faces that lie on the window's sides; nothing if they leave a part of a side open.
-  [[nodiscard]] std::optional<std::vector<Side>> sides(const Table<FaceId, mesh::Face<dim>>& faces) const {
+  [[nodiscard]] std::optional<std::vector<Side>> sides(const Table<FaceId, mesh::WeightedFace<dim>>& faces) const {
     std::vector<Side> found;
     Eigen::Matrix<double, dim, 2> covered = Eigen::Matrix<double, dim, 2>::Zero();
     for (const FaceId f : faces.ids()) {
@@ -167,7 +173,7 @@ class Sample {
             on = on && std::abs(high == 1 ? below_high(node, axis) : above_low(node, axis)) <= rounding_;
           }
           if (!on) continue;
-          found.push_back({f, axis, high == 1 ? 1.0 : -1.0, mesh::face_area(mesh_, faces[f])});
+          found.push_back({f, axis, high == 1 ? 1.0 : -1.0, faces[f].weight * mesh::face_area(mesh_, faces[f])});
           covered(axis, high) += found.back().area;
         }
       }
@@ -189,7 +195,7 @@ class Sample {
   }
 
   [[nodiscard]] std::optional<Tensor> uniform_flux() {
-    const auto faces = mesh::boundary_faces(mesh_);
+    const auto faces = mesh::weighted_faces(mesh_);
     const auto found = sides(faces);
     if (!found) return std::nullopt;
     hold([](NodeId) { return false; });
@@ -216,7 +222,7 @@ class Sample {
   HeatModel model_;
   Aabb<dim> window_;
   double rounding_;  // [m]
-  std::vector<ElementPart> inside_;
+  std::vector<PartInside<dim>> inside_;
   std::vector<NodeId> rows_;        // a node of each row: tied ones share one (tied_nodes.h)
   std::vector<std::size_t> group_;  // of each row: the row that stands for all it is joined with
   std::optional<FreeNodes> free_;
@@ -226,11 +232,13 @@ class Sample {
 }  // namespace
 
 template <int dim>
-std::vector<ElementPart> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
-  std::vector<ElementPart> parts;
-  for (const ElementId e : mesh.elements.ids()) {
-    const double volume = mesh::shares_in_box<dim, dim + 1>(mesh::corners_of(mesh, mesh.elements[e]), window, 0).sum();
-    if (volume > 0) parts.push_back({e, volume});
+std::vector<PartInside<dim>> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window) {
+  std::vector<PartInside<dim>> parts;
+  for (const BlockId b : mesh.blocks.ids()) {
+    mesh::for_each_simplex(mesh, mesh.blocks[b], [&](const mesh::Simplex<dim>& nodes, double weight) {
+      const double volume = mesh::shares_in_box<dim, dim + 1>(mesh::corners_of(mesh, nodes), window, 0).sum();
+      if (volume > 0) parts.push_back({nodes, b, weight * volume});
+    });
   }
   if (!parts.empty()) return parts;
   Aabb<dim> extent;
@@ -246,8 +254,8 @@ EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& me
   return Sample<dim>(mesh, materials, model, window).measure();
 }
 
-template std::vector<ElementPart> parts_in<2>(const mesh::BlockMesh<2>&, const Aabb<2>&);
-template std::vector<ElementPart> parts_in<3>(const mesh::BlockMesh<3>&, const Aabb<3>&);
+template std::vector<PartInside<2>> parts_in<2>(const mesh::BlockMesh<2>&, const Aabb<2>&);
+template std::vector<PartInside<3>> parts_in<3>(const mesh::BlockMesh<3>&, const Aabb<3>&);
 template EffectiveConductivity<2> effective_conductivity<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
                                                             const HeatModel&, const Aabb<2>&);
 template EffectiveConductivity<3> effective_conductivity<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,

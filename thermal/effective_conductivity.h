@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/mesh/cells.h"
 #include "thermal/heat_model.h"
 
 namespace scree::thermal {
@@ -26,14 +27,17 @@ struct EffectiveConductivity {
   double volume_mean = 0;
 };
 
-struct ElementPart {
-  ElementId element;
+// Of a simplex as conduction sees it: an element, or one of either split of a cell, which count half.
+template <int dim>
+struct PartInside {
+  mesh::Simplex<dim> nodes;
+  BlockId block;
   double volume = 0;  // [m3] (2-D: [m2])
 };
 
-// The parts of elements that lie in the window. Throws InputError if there is none.
+// What lies in the window. Throws InputError if nothing does.
 template <int dim>
-std::vector<ElementPart> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
+std::vector<PartInside<dim>> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
 
 // Nodes on and outside the window's sides are held, where a temperature that is linear along the axis would hold them: exact in
 // a homogeneous solid, wherever the sides cut its elements; otherwise what is cut is off by the size of elements, and so may

@@ -194,6 +194,21 @@ Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd&
                   [](const Curve& curve, double at) { return curve.slope(at) / value(curve, at); });
 }
 
+bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
+  constexpr double unlike_ends = 1.5;  // times
+  constexpr double unlike_mean = 0.1;  // of the mean of the ends
+  if (!model.varying) return false;
+  const auto bends = [&](const Curve& curve, Eigen::Index row) -> double {
+    const double way = to[row] - from[row];
+    if (curve.constant() || !(std::abs(way) > least)) return 0;
+    const double first = value(curve, from[row]), last = value(curve, to[row]);
+    const double middle = 0.5 * (first + last), mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
+    return std::max(first, last) > unlike_ends * std::min(first, last) || std::abs(mean - middle) > unlike_mean * middle ? 1
+                                                                                                                         : 0;
+  };
+  return at_rows(*model.varying, &VaryingProperties::specific_heat, bends).maxCoeff() > 0;
+}
+
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {
   Linearised result;
   result.capacity = capacity_at(model_, temperature);

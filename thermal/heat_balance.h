@@ -35,6 +35,10 @@ Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& tempe
 // dC/dT over C of each node [1/K], 0 where it is not known (Curve::slope).
 Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd& temperature);
 
+// Whether the heat capacity of a node that gets warmer or colder by more than `least` [K] is far from a single value on the
+// way: temperatures bend there, as in a peak of latent heat.
+bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least);
+
 class HeatBalance {
  public:
   explicit HeatBalance(const HeatModel& model, Sums sums = Sums::extended);  // refers to it

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -74,13 +75,22 @@ void check_bodies(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mate
   missing.raise();
 }
 
+bool varies(const Material& material) {
+  return material.conductivity->varies() || !material.specific_heat->constant();
+}
+
+// Temperatures of nodes whose body moves may not be known yet.
+bool initial_is_known(const HeatOptions& options, const MovingBodies& moving, BodyId body) {
+  return !moving.contains(body) || !(options.initial_field || options.initial_temperature[body].varies_in_place());
+}
+
 template <int dim>
 void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, const MovingBodies& moving, HeatModel& model) {
   for (const NodeId node : mesh.nodes.ids()) {
     const auto row = static_cast<Eigen::Index>(node.index());
     const BodyId body = mesh.blocks[model.blocks[node]].body;
     const Eigen::Vector3d place = model.places.col(row);
-    if (moving.contains(body) && (options.initial_field || options.initial_temperature[body].varies_in_place())) continue;
+    if (!initial_is_known(options, moving, body)) continue;
     model.initial[row] = options.initial_field ? (*options.initial_field)[row] : options.initial_temperature[body](place, 0);
     if (std::isfinite(model.initial[row]) && model.initial[row] >= 0) continue;
     throw InputError(problem("heat.initial",
@@ -89,15 +99,32 @@ void set_initial(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, c
   }
 }
 
+// Properties that depend on temperature where the run begins: a formula that breaks its rule there says so by itself.
+template <int dim>
+void check_properties(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                      const HeatOptions& options, const MovingBodies& moving, const HeatModel& model) {
+  for (const BlockId b : mesh.blocks.ids()) {
+    const BodyId body = mesh.blocks[b].body;
+    const Material& material = materials[mesh.bodies[body].material];
+    if (!varies(material) || !initial_is_known(options, moving, body)) continue;
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (const NodeId node : mesh.blocks[b].nodes) {
+      const double temperature = model.initial[node.value()];
+      if (temperature == last) continue;
+      last = temperature;
+      material.conductivity->value(temperature);
+      (*material.specific_heat)(temperature);
+    }
+  }
+}
+
 // What properties that depend on temperature need, if there are any.
 template <int dim>
 void set_varying(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, HeatModel& model) {
-  bool any = false;
-  for (const mesh::Body& body : mesh.bodies) {
-    const Material& material = materials[body.material];
-    any = any || material.conductivity->varies() || !material.specific_heat->constant();
+  if (std::none_of(mesh.bodies.begin(), mesh.bodies.end(),
+                   [&](const mesh::Body& body) { return varies(materials[body.material]); })) {
+    return;
   }
-  if (!any) return;
   VaryingProperties& varying = model.varying.emplace();
   varying.mass = Eigen::VectorXd::Zero(model.capacity.size());
   for (const Material& material : materials) {  // one that no body is made of may lack them
@@ -129,6 +156,7 @@ HeatModel unjoined(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mat
   }
   for (const mesh::Body& body : mesh.bodies) model.body_names.push_back(body.name);
   set_initial(mesh, options, moving, model);
+  check_properties(mesh, materials, options, moving, model);
   apply_boundaries(mesh, options, moving, model);
   return model;
 }

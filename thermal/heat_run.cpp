@@ -24,6 +24,8 @@ namespace {
 // A step that passes outputs takes two intervals at least, and each is at most four times the one before: shorter ones than
 // this, of an output interval, are not among the four that it needs.
 constexpr double least_remembered = 0.125 * (1 - 1e-9);
+// Of the tolerance: nodes whose temperature changes by less in a step bend nothing that is seen at outputs.
+constexpr double least_bending = 0.1;
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
@@ -204,7 +206,7 @@ class HeatRun::Implementation {
         grid.refine();
         continue;
       }
-      const StepEnds ends = followed_by(start_of(grid), state_.earlier);
+      const StepEnds ends = ends_behind(step, grid);
       const double between = error_of_passed(step, ends, grid);
       if (between > budget_.of_passed(step.error)) {
         ++state_.rejected_steps;
@@ -231,8 +233,17 @@ class HeatRun::Implementation {
   // At the outputs that the step passes which the grid is at [K]; 0 if there are none.
   [[nodiscard]] double error_of_passed(const Step& step, const StepEnds& ends, const StepGrid& grid) const {
     if (!passes_outputs(grid)) return 0;
+    if (ends.size() < BetweenSteps::ends_before) return std::numeric_limits<double>::infinity();
     const double every = options_.output_every, end = grid.time() + grid.step();
     return BetweenSteps(end, state_.temperature + step.change, ends).error(grid.time() + every, end - 0.5 * every, every);
+  }
+
+  // What outputs that this step or later ones pass are made from: nothing from before the temperatures were bent.
+  [[nodiscard]] StepEnds ends_behind(const Step& step, const StepGrid& grid) const {
+    const StepEnd start = start_of(grid);
+    const bool bent = start.temperature && bends_on_the_way(model_, state_.temperature, state_.temperature + step.change,
+                                                            least_bending * options_.tolerance);
+    return bent ? StepEnds() : followed_by(start, state_.earlier);
   }
 
   // Without temperatures if no output that a step passes will ask for them.
@@ -345,18 +356,6 @@ class HeatRun::Implementation {
   HeatState state_;
   std::int64_t earlier_factorisations_ = 0;  // of the runs this one goes on from
 };
-
-void TemperatureRange::include(const Eigen::VectorXd& temperatures) {
-  if (temperatures.size() == 0) return;
-  least = std::min(least, temperatures.minCoeff());
-  largest = std::max(largest, temperatures.maxCoeff());
-}
-
-std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
-  if (!model.loads.empty()) return std::nullopt;
-  const double above = state.reached.largest - state.given.largest;
-  return std::max({0.0, above, state.given.least - state.reached.least});
-}
 
 HeatRun::HeatRun(const HeatModel& model, const TimeOptions& options)
     : HeatRun(std::make_shared<const HeatModel>(model), options, std::nullopt) {}

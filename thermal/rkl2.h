@@ -26,12 +26,19 @@
 namespace scree::thermal::rkl2 {
 
 inline constexpr int least_stages = 3;
+inline constexpr int most_stages = 1'000'000'001;  // odd, too; no step takes as many
+
+// j^2 + j - 2, of numbers whose squares no int holds.
+inline double extent(int j) {
+  return static_cast<double>(j) * j + j - 2.0;
+}
 
 inline int stages_for(double length, double stable) {
   if (std::isinf(stable)) return least_stages;
-  const double ratio = length / stable;  // (s^2 + s - 2)/4
-  const int stages = static_cast<int>(std::ceil(0.5 * (std::sqrt(9 + 16 * ratio) - 1)));
-  return std::max(least_stages, stages | 1);  // an odd number damps the fastest modes
+  const double ratio = length / stable;  // extent(s)/4
+  const double stages = std::ceil(0.5 * (std::sqrt(9 + 16 * ratio) - 1));
+  if (!(stages < most_stages)) return most_stages;
+  return std::max(least_stages, static_cast<int>(stages) | 1);  // an odd number damps the fastest modes
 }
 
 struct Coefficients {
@@ -40,8 +47,8 @@ struct Coefficients {
 
 // Of stage j >= 2 of s.
 inline Coefficients coefficients(int j, int stages) {
-  const auto b = [](int i) { return i < 2 ? 1.0 / 3 : (i * i + i - 2.0) / (2.0 * i * (i + 1)); };
-  const double w1 = 4.0 / (stages * stages + stages - 2.0);
+  const auto b = [](int i) { return i < 2 ? 1.0 / 3 : extent(i) / (2.0 * i * (i + 1.0)); };
+  const double w1 = 4.0 / extent(stages);
   const double mu = (2.0 * j - 1) / j * b(j) / b(j - 1);
   const double nu = -(j - 1.0) / j * b(j) / b(j - 2);
   const double product = mu * w1;
@@ -49,12 +56,12 @@ inline Coefficients coefficients(int j, int stages) {
 }
 
 inline double first_coefficient(int stages) {
-  return 4.0 / (3 * (stages * stages + stages - 2.0));
+  return 4.0 / (3 * extent(stages));
 }
 
 // When stage j >= 1 of s is, as a part of the step: c_j.
 inline double part_at(int j, int stages) {
-  return j < 2 ? first_coefficient(stages) : (j * j + j - 2.0) / (stages * stages + stages - 2.0);
+  return j < 2 ? first_coefficient(stages) : extent(j) / extent(stages);
 }
 
 // Of the drive at a step's start, middle and end.
@@ -76,7 +83,7 @@ inline DriveWeights drive_weights(int stages) {
 
 // What takes h^3 T''' of H to that of the step.
 inline double estimate_of(int stages) {
-  const double n = stages * stages + stages;
+  const double n = extent(stages) + 2;
   const double third = (n - 6) / (9 * (n - 2));
   return (third - 1.0 / 6) / (0.25 - third);
 }

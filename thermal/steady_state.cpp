@@ -151,12 +151,16 @@ class SteadySolver {
 
 }  // namespace
 
-SteadyState find_steady_state(const HeatModel& model, LinearSolver solver) {
+void check_steady(const HeatModel& model) {
   if (Drives(model).vary()) {
     throw InputError(problem("heat.steady", "true", "must have temperatures, flows and coefficients that do not change in time",
                              "Leave the time out of expressions and tables, or run in time"));
   }
   check_anchors(model);
+}
+
+SteadyState find_steady_state(const HeatModel& model, LinearSolver solver) {
+  check_steady(model);
   SteadySolver steady(model, solver);
   return {steady.solve(), steady.words()};
 }

@@ -36,7 +36,7 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
 double next_output(const TimeOptions& options, double time) {
   if (options.output_every <= 0) return options.until;
   const double next = (std::floor(time / options.output_every + on_grid) + 1) * options.output_every;
-  return std::min(next, options.until);
+  return next > options.until - on_grid * options.output_every ? options.until : next;
 }
 
 }  // namespace scree::thermal

@@ -98,9 +98,11 @@ int resume(const Arguments& arguments) {
 
 template <int dim>
 std::string check_report(const scree::Scene& scene) {
-  const auto blocks = scene.packing ? scree::packing::remaining(scree::run::stored_packing<dim>(scene)).mesh
-                                    : scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers());
-  scree::run::check_heat(scene, blocks);
+  const auto packing =
+      scene.packing ? scree::run::stored_packing<dim>(scene)
+                    : scree::packing::unmoved<dim>(scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers()));
+  const auto blocks = scree::packing::remaining(packing).mesh;
+  scene.settle ? scree::run::check_heat(scene, blocks) : scree::run::check_placed(scene, packing);
   return scree::to_text(scree::check_scene(scene, blocks));
 }
 

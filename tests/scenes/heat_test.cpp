@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,36 @@ TEST(Slab, FollowsTheSeriesAtItsProbes) {
   std::vector<std::string> stages;
   for (const auto& stage : run.summary["stages"]) stages.push_back(stage["name"]);
   EXPECT_EQ(stages, (std::vector<std::string>{"mesh", "contacts", "assemble", "begin", "heat"}));
+}
+
+// Temperatures bend where a node enters the peak of its heat capacity or leaves it, which no polynomial through the ends of
+// steps follows: outputs that steps pass would be off by three times the time error.
+TEST(LatentHeat, OutputsAreWithinTheTimeErrorOfAFinerRun) {
+  const auto folder = fresh_directory("latent_heat");
+  std::ofstream(folder / "latent.yaml")
+      << "dimension: 2\n"
+         "materials: {m: {density: 1, conductivity: 1,\n"
+         "  specific_heat: {table: [[250, 1], [314, 1], [314.5, 1000], [315, 1], [500, 1]]}}}\n"
+         "bodies: {b: {box: {size: [1, 0.3], centre: [0.5, 0]}, material: m, mesh_size: 0.2, elements: quadrilateral}}\n"
+         "heat: {initial: 300, boundaries: [{body: b, surface: x_low, flux: 60}], until: 0.32, tolerance: 0.1}\n"
+         "output: {every: 0.0032, probes: {p: [0, -0.15]}}\n";
+  const SceneRun run = run_file(folder / "latent.yaml", folder / "coarse");
+  const SceneRun fine = run_file(folder / "latent.yaml", folder / "fine", {"heat.tolerance=0.0001"});
+  ASSERT_EQ(run.exit_status, 0);
+  ASSERT_EQ(fine.exit_status, 0);
+  const auto coarse_at = run.probes().at("p"), fine_at = fine.probes().at("p");
+  ASSERT_EQ(coarse_at.size(), 101);
+  double largest = 0;
+  for (std::size_t i = 0; i < coarse_at.size(); ++i) largest = std::max(largest, std::abs(coarse_at[i] - fine_at[i]));
+  EXPECT_LT(largest, run.summary["heat"]["time_error"].get<double>());
+}
+
+// A millionth of a watt for a second: rounding the temperatures of rock at 300 K is worth more.
+TEST(Slab, IsSoundWhereNextToNoHeatFlows) {
+  const SceneRun run = test::run(
+      "slab", fresh_directory("little_heat"),
+      {"heat.initial=300", "heat.boundaries=[{body: bar, surface: x_low, flux: 1e-6}]", "heat.until=1 s", "output.every=1 s"});
+  EXPECT_EQ(run.exit_status, 0) << run.summary.dump(1);
 }
 
 TEST(Slab, FollowsTheSeriesToAHundredthWithAFineTolerance) {

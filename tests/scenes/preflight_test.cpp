@@ -54,6 +54,8 @@ TEST(Preflight, FindsWhatTheBlocksCannotGive) {
        "is a window from (5, 5, 5) to (6, 6, 6) m (must hold a part of at least one element)"},
       {"heat.space_order=4", "--set heat.space_order: ", "must have blocks of hexahedra"},
       {"heat.initial={expression: 300 + 1/(z - z), unit: K}", "--set heat.initial: ", "inf K at x ="},
+      {"materials.rock.specific_heat={expression: T-301}", "--set materials.rock.specific_heat: ", "is -1 J/kg/K at 300 K"},
+      {"materials.rock.conductivity={expression: 299-T}", "--set materials.rock.conductivity: ", "is -1 W/m/K at 300 K"},
       {"output.probes={p: [9, 9, 9]}", "--set output.probes: ", "output.probes.p is [9, 9, 9]"},
   };
   for (const Case& wrong : cases) {
@@ -71,6 +73,49 @@ TEST(Preflight, OfASceneThatSettlesFindsWhatDoesNotDependOnWhereBlocksWillLie) {
   EXPECT_EQ(refused(settling, "heat.sources=[{body: cube, power: 1, within: {low: [5, 5, 5], high: [6, 6, 6]}}]"), "");
   EXPECT_EQ(refused(settling, "output.probes={p: [0, 0, 9]}"), "");
   EXPECT_EQ(refused(settling, "heat.initial={cube: {expression: 1/(z - z), unit: K}, plate: 300}"), "");
+}
+
+// What the command `check` asks beyond that of blocks that lie where they are heated.
+std::string refused_placed(const std::vector<std::string>& overrides) {
+  const Scene scene = read_scene_text(still, ".", overrides);
+  try {
+    run::check_placed(scene, packing::unmoved<3>(mesh::make_blocks<3>(scene.bodies, {})));
+  } catch (const InputError& error) {
+    return located(scene, error).what();
+  }
+  return {};
+}
+
+TEST(Preflight, OfBlocksInTheirPlacesFindsWhatARunIsRefusedWithBeforeItsFirstStep) {
+  EXPECT_EQ(refused_placed({}), "");
+  EXPECT_THAT(refused_placed({"heat.boundaries.0.temperature={expression: \"t < 1 ? -5 : 300\"}"}), HasSubstr("is -5 K"));
+  EXPECT_THAT(refused_placed({"heat.boundaries.0.within={low: [-1, -1, -1], high: [0, 1, 1]}", "heat.blocks.model=lumped"}),
+              HasSubstr("must be held as a whole"));
+  EXPECT_THAT(refused_placed({"heat.steady=true", "heat.until=null", "output.every=null",
+                              "heat.boundaries=[{body: plate, surface: z_low, flux: 3}]"}),
+              HasSubstr("must give every block a path"));
+  EXPECT_THAT(refused_placed({"heat.integrator=explicit_euler", "heat.step=1e6"}),
+              HasSubstr("must be at most the stable step"));
+  EXPECT_THAT(refused_placed({"contact.joints=[{bodies: [cube, cube], conductance: 3}]"}),
+              HasSubstr("must hold for some contact"));
+}
+
+TEST(Preflight, ARunDoesNotWriteOverWhatItReads) {
+  const auto folder = fresh_directory("own_inputs");
+  std::ofstream(folder / "scene.yaml") << still;
+  EXPECT_THAT(refusal_of_file(folder / "scene.yaml", folder), HasSubstr("holds a scene.yaml that no run has left"));
+  EXPECT_EQ(contents(folder / "scene.yaml"), still);
+  const auto out = folder / "out";
+  ASSERT_EQ(run_file(folder / "scene.yaml", out).exit_status, 0);
+  ASSERT_EQ(run_file(out / "scene.yaml", out).exit_status, 0) << "that one a run has left";
+  const std::string before = contents(out / "heat/heat_000001.vtu");
+  for (const char* from : {"out", "out/heat.pvd", "out/heat/heat_000001.vtu"}) {
+    EXPECT_THAT(refusal_of_file(folder / "scene.yaml", out, {"heat.initial={from: " + (folder / from).string() + "}"}),
+                HasSubstr("which the run reads"))
+        << from;
+  }
+  EXPECT_EQ(contents(out / "heat/heat_000001.vtu"), before);
+  EXPECT_EQ(run_file(folder / "scene.yaml", folder / "more", {"heat.initial={from: " + out.string() + "}"}).exit_status, 0);
 }
 
 TEST(Preflight, ARunRefusesBeforeAnythingFalls) {

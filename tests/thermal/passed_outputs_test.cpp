@@ -1,5 +1,7 @@
 // Outputs that steps pass.
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -126,6 +128,17 @@ TEST(Outputs, AreAllToldOnceAndInOrderWhateverTheInterval) {
       EXPECT_EQ(follow(run).times, expected);
       EXPECT_EQ(run.state().time, 7200);
     }
+  }
+}
+
+TEST(Outputs, ComeOnceAtTheEndWhereIntervalsFillTheRunButForRounding) {
+  for (const auto& [every, until] : {std::pair{0.7, 4.9}, {2.3, 16.1}, {0.1, 0.3}}) {
+    TimeOptions options = two_hours(every);
+    options.until = until;
+    HeatRun run(heated_pair(400, 1), options);
+    const Followed outputs = follow(run);
+    EXPECT_EQ(outputs.times.size(), std::lround(until / every)) << every;
+    EXPECT_EQ(outputs.times.back(), until) << every;
   }
 }
 

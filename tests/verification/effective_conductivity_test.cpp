@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
 #include "thermal/joint_conduction.h"
 
@@ -138,6 +139,30 @@ TYPED_TEST(Homogenised, AWindowWithoutAnElementIsRefused) {
   constexpr int dim = TypeParam::value;
   const auto rock = jointed_rock<dim>(1, beta);
   EXPECT_THROW(effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(5, 6)), InputError);
+}
+
+// Both splits of their cells conduct, and both are measured.
+TEST(EffectiveConductivity, OfHexahedraAndWedgesIsWhatTheyAreMadeOf) {
+  for (const auto cells : {mesh::CellKind::hexahedron, mesh::CellKind::wedge}) {
+    mesh::BodySpec body;
+    body.name = "box";
+    body.shape = mesh::Box{.size = {1, 0.8, 0.6}};
+    body.mesh_size = 0.5;
+    body.cells = cells;
+    body.material = MaterialId{0};
+    const auto mesh = mesh::make_blocks<3>({body});
+    const HeatModel model = make_heat_model(mesh, test::rock_only(), contact::ContactSet<3>(), test::options_for(mesh, 300));
+    const Aabb<3> window(Point<3>(-0.5, -0.4, -0.3), Point<3>(0.5, 0.4, 0.3));
+    const auto found = effective_conductivity(mesh, test::rock_only(), model, window);
+    const double rock = *test::rock_only()[MaterialId{0}].conductivity->value.constant();
+    const Eigen::Matrix3d exact = rock * Eigen::Matrix3d::Identity();
+    EXPECT_LT((found.upper - exact).norm(), 1e-12 * rock);
+    ASSERT_TRUE(found.lower.has_value());
+    EXPECT_LT((*found.lower - exact).norm(), 1e-10 * rock);
+    EXPECT_LT((found.along - Point<3>::Constant(rock)).norm(), 1e-10 * rock);
+    EXPECT_NEAR(found.solid_fraction, 1, 1e-12);
+    EXPECT_NEAR(found.volume_mean, rock, 1e-12 * rock);
+  }
 }
 
 }  // namespace

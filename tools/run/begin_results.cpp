@@ -29,8 +29,9 @@ void begin_results(RunContext& context) {
   if (context.begun) return;
   context.begun = true;
   if (!context.resume) remove_earlier(context);
-  write_text(context.files.scene(), context.scene.effective);
+  // In this order: a scene without a summary is none that a run has left (own_inputs.h).
   write_summary(context.files, opening_summary(context));
+  write_text(context.files.scene(), context.scene.effective);
 }
 
 }  // namespace scree::run

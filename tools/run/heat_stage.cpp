@@ -41,6 +41,7 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
   const double until = context.scene.heat->time.until;
   thermal::WorkDone work = run.work_done();
   const auto at_output = [&](const thermal::HeatRun::Output& output) {
+    check_interrupt();  // a step may pass thousands
     output.resumable ? recorder.record(run.state()) : recorder.record_passed(output.time, output.temperature);
   };
   run.follow(at_output, [&](double time) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/output/stored_field.h"
+#include "thermal/check_start.h"
 #include "thermal/effective_conductivity.h"
 #include "thermal/problems.h"
 #include "tools/run/heated_pile.h"
@@ -52,6 +53,17 @@ void check_heat(const Scene& scene, const mesh::BlockMesh<dim>& blocks) {
   if (const auto window = effective_window<dim>(scene)) thermal::parts_in(blocks, *window);
 }
 
+template <int dim>
+void check_placed(const Scene& scene, const packing::Packing<dim>& packing) {
+  if (!scene.heat) return;
+  HeatedPile<dim> pile = placed_pile(scene, packing);
+  check_heat(scene, pile.mesh);
+  join(scene, pile);
+  thermal::check_start(*heat_model(scene, pile), scene.heat->time);
+}
+
+template void check_placed<2>(const Scene&, const packing::Packing<2>&);
+template void check_placed<3>(const Scene&, const packing::Packing<3>&);
 template void check_heat<2>(const Scene&, const mesh::BlockMesh<2>&);
 template void check_heat<3>(const Scene&, const mesh::BlockMesh<3>&);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/mesh/block_mesh.h"
+#include "engine/packing/packing.h"
 #include "tools/scene/scene.h"
 
 namespace scree::run {
@@ -11,5 +12,10 @@ namespace scree::run {
 // depends on where free bodies will lie is not asked.
 template <int dim>
 void check_heat(const Scene& scene, const mesh::BlockMesh<dim>& blocks);
+
+// The same where all lie where they are heated, and for what the run would be refused with before its first step: joints,
+// lumped blocks, steps. Takes the contacts' search and the assembly of the heat's model.
+template <int dim>
+void check_placed(const Scene& scene, const packing::Packing<dim>& packing);
 
 }  // namespace scree::run

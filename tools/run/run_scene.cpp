@@ -9,6 +9,7 @@
 #include "tools/run/begin_results.h"
 #include "tools/run/certificate.h"
 #include "tools/run/claim.h"
+#include "tools/run/own_inputs.h"
 #include "tools/run/summary.h"
 #include "tools/scene/doctor.h"
 #include "tools/scene/read_scene.h"
@@ -69,7 +70,7 @@ Ending run_stages(RunContext& context, Json& summary) {
   }
   const HeatOutcome<dim> heat = heat_stage(context, std::move(outcome.packing));
   add_heat(summary, scene, heat);
-  auto reasons = unsound(scene, heat.state);
+  auto reasons = unsound(scene, heat);
   if (!reasons.empty()) return {"not_converged", 1, std::move(reasons)};
   return {"complete", 0, {}};
 }
@@ -100,6 +101,7 @@ Ending run_to_an_end(RunContext& context, Claim& claim, Json& summary) {
 
 int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
   catch_interrupts();
+  if (start == Start::fresh) refuse_own_inputs(scene, files);
   Claim claim(files);
   say_models(scene, progress);
   const bool resume = start == Start::resume;

@@ -30,6 +30,7 @@ void add_stages(Json& summary, const std::vector<StageCost>& costs);
 // Why a finished run is not sound; empty if it is. Each entry names the figure and what to change.
 template <int dim>
 std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>& packing);
-std::vector<std::string> unsound(const Scene& scene, const thermal::HeatState& state);
+template <int dim>
+std::vector<std::string> unsound(const Scene& scene, const HeatOutcome<dim>& heat);
 
 }  // namespace scree::run

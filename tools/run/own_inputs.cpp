@@ -1,0 +1,69 @@
+#include "tools/run/own_inputs.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
+
+namespace scree::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 3> series{"heat", "contacts", "settle"};
+
+std::vector<fs::path> inputs(const Scene& scene) {
+  std::vector<fs::path> files = scene.tables;
+  if (scene.initial_field) files.push_back(scene.initial_field->from);
+  for (const mesh::BodySpec& body : scene.bodies) {
+    if (const auto* mesh = std::get_if<mesh::MeshFile>(&body.shape)) files.push_back(mesh->path);
+  }
+  return files;
+}
+
+bool same(const fs::path& one, const fs::path& other) {
+  std::error_code ignored;
+  return fs::equivalent(one, other, ignored);
+}
+
+// Whether a run that starts removes it or writes something else there. Its packing it leaves, if it is to start from that.
+bool is_result(const fs::path& file, const RunFiles& files) {
+  if (same(file, files.directory) || same(file, files.probes())) return true;
+  const fs::path folder = file.parent_path();
+  return std::any_of(series.begin(), series.end(), [&](const char* name) {
+    return same(file, files.directory / fmt::format("{}.pvd", name)) || same(folder, files.directory / name);
+  });
+}
+
+[[noreturn]] void refuse(const RunFiles& files, const std::string& rule, const std::string& suggestion) {
+  Problem problem;
+  problem.key = "--out";
+  problem.value = files.directory.string();
+  problem.rule = rule;
+  problem.suggestion = suggestion;
+  throw InputError(std::move(problem));
+}
+
+}  // namespace
+
+void refuse_own_inputs(const Scene& scene, const RunFiles& files) {
+  for (const fs::path& file : inputs(scene)) {
+    if (!is_result(file, files)) continue;
+    refuse(files,
+           fmt::format("must not be where {} lies, which the run reads: its results would take that place", file.string()),
+           "Choose another --out");
+  }
+  if (fs::exists(files.scene()) && !fs::exists(files.summary())) {
+    refuse(files, "holds a scene.yaml that no run has left, and a run writes its scene there, with every default filled in",
+           "Choose another --out, or another name for that file");
+  }
+}
+
+}  // namespace scree::run

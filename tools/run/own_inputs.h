@@ -1,0 +1,13 @@
+// What a run reads must not lie where it writes.
+#pragma once
+
+#include "tools/run/run_files.h"
+#include "tools/scene/scene.h"
+
+namespace scree::run {
+
+// Throws InputError for a directory in which the results of a run that starts would take the place of what it is made from:
+// temperatures, tables or meshes among the results of an earlier run there, or a scene.yaml that no run has left.
+void refuse_own_inputs(const Scene& scene, const RunFiles& files);
+
+}  // namespace scree::run
