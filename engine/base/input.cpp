@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -38,6 +39,15 @@ bool is_utf8(const std::string& text) {
   } catch (const nlohmann::json::type_error&) {
     return false;
   }
+}
+
+// For a line that YAML does not take.
+std::string hint_for(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string here;
+  for (int i = 0; i <= line; ++i) std::getline(lines, here);
+  const std::string indentation = here.substr(0, here.find_first_not_of(" \t"));
+  return indentation.find('\t') == std::string::npos ? "" : "Indent with spaces: YAML takes no tabs there";
 }
 
 // Turns nodes into data. Aliases are copied, so that a list holding itself would be endless and nested aliases grow without
@@ -112,7 +122,7 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
   try {
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
-    refuse(location(name, error.mark), "not YAML", error.msg, "");
+    refuse(location(name, error.mark), "not YAML", error.msg, hint_for(text, error.mark.line));
   }
   if (documents.size() > 1) {
     refuse(location(name, documents[1].Mark()), "more than one YAML document", "", "Keep the part before the line ---");

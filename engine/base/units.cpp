@@ -177,8 +177,9 @@ std::optional<Number> leading_number(std::string_view text) {
 // What is probably meant by a unit of another quantity.
 std::string likely_unit(std::string_view unit, const Quantity& quantity) {
   const bool warm = quantity.kind != Quantity::Kind::scale;
-  if (warm && (unit == "C" || unit == "c" || unit == "celsius")) return "degC";
-  if (warm && (unit == "F" || unit == "f")) return "degF";
+  // However its degrees are written: C, deg C, oC.
+  if (warm && (unit.ends_with('C') || unit == "c" || unit.ends_with("elsius"))) return "degC";
+  if (warm && (unit.ends_with('F') || unit == "f" || unit.ends_with("ahrenheit"))) return "degF";
   if (quantity.unit == "s" && unit == "m") return "min";
   if (quantity.unit == "s" && (unit == "H" || unit == "D")) return unit == "H" ? "h" : "d";
   if (quantity.unit == "m" && unit == "M") return "m";

@@ -27,7 +27,9 @@ inline void expect_reasonable(const BodySpec& body, double elements) {
   if (elements <= most) return;
   throw body_error(body, "mesh_size", fmt::format("{} m", body.mesh_size),
                    fmt::format("it would make about {:.2g} elements, and {:.0g} are the most", elements, most),
-                   "Choose a larger mesh_size");
+                   std::holds_alternative<MeshFile>(body.shape)
+                       ? "Choose a larger mesh_size, or say in mesh.scale what the file's unit is"
+                       : "Choose a larger mesh_size");
 }
 
 }  // namespace scree::mesh

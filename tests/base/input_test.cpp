@@ -56,6 +56,7 @@ TEST(Input, AnEmptyFileIsEmpty) {
 TEST(Input, SyntaxErrorsTellTheirPlace) {
   EXPECT_EQ(message_of("a: [1, 2\nb: 3\n"), "s.yaml:2:2: the file is not YAML (end of sequence flow not found)");
   EXPECT_EQ(message_of("a: b: c"), "s.yaml:1:5: the file is not YAML (illegal map value)");
+  EXPECT_THAT(message_of("a:\n  b: 1\n\tc: 2\n"), testing::EndsWith("). Indent with spaces: YAML takes no tabs there"));
   EXPECT_EQ(message_of("a: *b"), "s.yaml:1:4: the file is not YAML (the referenced anchor is not defined)");
 }
 

@@ -128,6 +128,9 @@ TEST(Units, AWrongDimensionIsRefused) {
   EXPECT_EQ(reason_of("3 kg", q::length), "kg is no unit of length | Did you mean 3 m?");
   EXPECT_EQ(reason_of("12 m", q::time), "m is no unit of time | Did you mean 12 min?");
   EXPECT_EQ(reason_of("25 C", q::temperature), "C is no unit of temperature | Did you mean 25 degC?");
+  for (const char* written : {"25 deg C", "25 oC", "25 degrees Celsius"}) {
+    EXPECT_THAT(reason_of(written, q::temperature), testing::EndsWith("Did you mean 25 degC?")) << written;
+  }
   EXPECT_EQ(reason_of("3.1 W/m", q::conductivity), "W/m is no unit of conductivity | Did you mean 3.1 W/m/K?");
   EXPECT_EQ(reason_of("5 m", q::number), "m is no unit of a plain number | Did you mean 5?");
   EXPECT_EQ(reason_of("45 %", q::angle), "% is no unit of angle | Did you mean 45 rad?");
