@@ -13,8 +13,8 @@ namespace {
 
 constexpr double allowed_dent = 1e-3;  // of the length of the edges beside it
 // What may be one face: triangles whose normals differ by at most this angle [rad] and whose corners lie in one plane, but for
-// this part of the block's diagonal. All triangles of a block that was meshed here are in order by the first; corners that were
-// rounded to the digits of a file want the second.
+// this part of the block's diagonal. The first does for blocks that were meshed here; corners that were rounded to the digits
+// of a file want the second.
 struct Flatness {
   double angle;
   double height;
@@ -232,7 +232,7 @@ bool is_convex(const ConvexPiece& piece, const ConvexPiece::Face& face) {
   return count >= 3;
 }
 
-// Of a block with dents those that are none: the others part nothing.
+// The edges that stand out: dents part nothing.
 void add_ridges(ConvexPiece& piece) {
   add_edges(piece);
   std::erase_if(piece.edges, [&](const ConvexPiece::Edge& edge) {
