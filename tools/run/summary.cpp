@@ -259,7 +259,7 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
                     report.deepest_overlap));
   }
   if (free_blocks > 0 && report.lost_blocks.size() == free_blocks) {
-    reasons.push_back(
+    reasons.emplace_back(
         "every block that could move was lost: it fell past the lowest fixed body, or left the scene's surroundings. Put "
         "a fixed body below them, or slow them down");
     return reasons;
