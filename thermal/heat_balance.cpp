@@ -203,8 +203,8 @@ bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const
     if (curve.constant() || !(std::abs(way) > least)) return 0;
     const double first = value(curve, from[row]), last = value(curve, to[row]);
     const double middle = 0.5 * (first + last), mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
-    return std::max(first, last) > unlike_ends * std::min(first, last) || std::abs(mean - middle) > unlike_mean * middle ? 1
-                                                                                                                         : 0;
+    const bool steep = std::max(first, last) > unlike_ends * std::min(first, last);
+    return steep || std::abs(mean - middle) > unlike_mean * middle ? 1 : 0;
   };
   return at_rows(*model.varying, &VaryingProperties::specific_heat, bends).maxCoeff() > 0;
 }

@@ -197,10 +197,10 @@ Groups grown_from_the_largest(const Surface& surface) {
   return groups;
 }
 
-// The edges that bound each group, from corner to next corner; nothing if one is not bounded by a single line.
-using Outline = std::map<std::int32_t, std::int32_t>;
+// The corners that each group is bounded by, one after the other; nothing if one is not bounded by a single line.
+using Outline = std::vector<std::int32_t>;
 std::optional<std::vector<Outline>> outlines(const Surface& surface, const Groups& groups) {
-  std::vector<Outline> next(groups.normals.size());
+  std::vector<std::map<std::int32_t, std::int32_t>> next(groups.normals.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       if (groups.of[surface.neighbours[t][i]] == groups.of[t]) continue;
@@ -208,17 +208,16 @@ std::optional<std::vector<Outline>> outlines(const Surface& surface, const Group
       if (!next[groups.of[t]].emplace(corners[i], corners[(i + 1) % 3]).second) return std::nullopt;
     }
   }
-  for (const Outline& outline : next) {
-    if (outline.empty()) return std::nullopt;
-    std::size_t length = 0;
-    std::int32_t at = outline.begin()->first;
-    do {
-      at = outline.at(at);
-      ++length;
-    } while (at != outline.begin()->first && length <= outline.size());
-    if (length != outline.size()) return std::nullopt;
+  std::vector<Outline> result;
+  for (const auto& edges : next) {
+    if (edges.empty()) return std::nullopt;
+    Outline& outline = result.emplace_back(Outline{edges.begin()->first});
+    for (std::int32_t at = edges.begin()->second; at != outline.front() && outline.size() < edges.size(); at = edges.at(at)) {
+      outline.push_back(at);
+    }
+    if (outline.size() != edges.size() || edges.at(outline.back()) != outline.front()) return std::nullopt;
   }
-  return next;
+  return result;
 }
 
 bool is_convex(const ConvexPiece& piece, const ConvexPiece::Face& face) {
@@ -260,14 +259,11 @@ std::optional<ConvexPiece> merged(const Surface& surface, const Groups& groups) 
     number[p] = static_cast<std::int32_t>(piece.vertices.size());
     piece.vertices.push_back(surface.points[p]);
   }
-  for (const Outline& next : *bounds) {
+  for (const Outline& outline : *bounds) {
     auto& face = piece.faces.emplace_back(ConvexPiece::Face{groups.normals[piece.faces.size()], {}});
-    const std::int32_t start = next.begin()->first;
-    std::int32_t at = start;
-    do {
-      if (number[at] >= 0) face.corners.push_back(number[at]);
-      at = next.at(at);
-    } while (at != start);
+    for (const std::int32_t corner : outline) {
+      if (number[corner] >= 0) face.corners.push_back(number[corner]);
+    }
     if (!is_convex(piece, face)) return std::nullopt;
   }
   add_ridges(piece);

@@ -10,7 +10,7 @@
 namespace scree::mesh {
 
 // A convex polyhedron. Triangles in one plane are one face, so a meshed box has 8 vertices, 6 faces and 12 edges; also if its
-// corners are rounded, as those of a mesh file are (README.md).
+// corners are rounded, as those of a mesh file are (engine/rigid/README.md).
 struct ConvexPiece {
   struct Face {
     Eigen::Vector3d normal;             // outwards, unit

@@ -66,13 +66,12 @@ void save(vtkImageData& image, const std::filesystem::path& png) {
   writer->SetInputData(&image);
   writer->WriteToMemoryOn();
   writer->Write();
-  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
   if (bytes == nullptr) {
     throw RunError(
         fmt::format("{}: could not be made ({})", png.string(), vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
   }
-  write_text(png, {reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
-                   static_cast<std::size_t>(bytes->GetNumberOfValues())});
+  write_text(png, {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())});
 }
 
 // As many frames as can be seen in the time, evenly spread; the last is always one of them.

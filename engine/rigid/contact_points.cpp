@@ -54,20 +54,14 @@ void reduce_to_four(std::vector<ContactPoint>& points, const Vector3d& normal) {
   points.resize(4);
 }
 
-const Vector3d& deepest_of(const PlacedPiece& piece, const Vector3d& normal) {
-  return *std::min_element(piece.vertices.begin(), piece.vertices.end(),
-                           [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
-}
-
-// An overlap without a contact would grow unseen, and what is closer than the clearance come closer. It has none if the face
-// that was clipped does not hold the deepest vertex, which is one overlap in a thousand. Other points of the pair bear an
-// overlap as well as the deepest (README.md); a clearance they do not keep.
-void add_deepest(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident, double clearance,
-                 std::vector<ContactPoint>& points) {
+// Of the vertex that is the furthest against the face's normal.
+ContactPoint deepest_point(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident) {
   const Vector3d& normal = reference.normals[face];
-  const Vector3d& deepest = deepest_of(incident, normal);
+  const Vector3d& deepest =
+      *std::min_element(incident.vertices.begin(), incident.vertices.end(),
+                        [&](const Vector3d& a, const Vector3d& b) { return a.dot(normal) < b.dot(normal); });
   const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
-  if (distance < clearance) points.push_back({deepest - distance * normal, deepest, distance});
+  return {deepest - distance * normal, deepest, distance};
 }
 
 // Whether it lies over the face, seen along the face's normal.
@@ -79,17 +73,6 @@ bool is_over(const PlacedPiece& piece, std::int32_t face, const Vector3d& point)
     if ((to - from).cross(piece.normals[face]).dot(point - from) > 0) return false;
   }
   return true;
-}
-
-// Of two faces that are nearly one the most opposed may not hold the deepest vertex, which then bears the pair beside it.
-bool deepest_is_missed(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident, std::size_t opposed,
-                       const std::vector<ContactPoint>& points) {
-  if (!incident.piece->faces[opposed].bent) return false;
-  const Vector3d& normal = reference.normals[face];
-  const Vector3d& deepest = deepest_of(incident, normal);
-  const double distance = normal.dot(deepest - reference.vertices[reference.piece->faces[face].corners[0]]);
-  return is_over(reference, face, deepest) &&
-         std::all_of(points.begin(), points.end(), [&](const ContactPoint& p) { return p.distance > distance; });
 }
 
 // Points of `incident` against a face of `reference`, whose points come first.
@@ -116,8 +99,17 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
   const bool bears =
       clearance > 0 ? std::any_of(points.begin(), points.end(), [&](const ContactPoint& p) { return p.distance < clearance; })
                     : !points.empty();
-  if (!bears || deepest_is_missed(reference, face, incident, opposed, points))
-    add_deepest(reference, face, incident, clearance, points);
+  // An overlap without a contact would grow unseen, and what is closer than the clearance come closer. It has none if the face
+  // that was clipped does not hold the deepest vertex, which is one overlap in a thousand. Other points of the pair bear an
+  // overlap as well as the deepest (README.md); a clearance they do not keep. And of two faces that are nearly one the most
+  // opposed may not hold the deepest vertex, which then bears the pair beside it.
+  if (!bears || incident.piece->faces[opposed].bent) {
+    const ContactPoint deepest = deepest_point(reference, face, incident);
+    const auto is_higher = [&](const ContactPoint& p) { return p.distance > deepest.distance; };
+    const bool missed =
+        !bears || (is_over(reference, face, deepest.on_second) && std::all_of(points.begin(), points.end(), is_higher));
+    if (missed && deepest.distance < clearance) points.push_back(deepest);
+  }
   if (points.size() > 4) reduce_to_four(points, normal);
   return points;
 }

@@ -6,7 +6,6 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <span>
 

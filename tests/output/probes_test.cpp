@@ -60,20 +60,31 @@ TEST(Probes, WorkInTwoDimensionsAndIgnoreZ) {
   EXPECT_NEAR(value_at(probes[0], Eigen::Vector3d(1, 2, 4)), 0.25 * 1 + 0.25 * 2 + 0.5 * 4, 1e-15);
 }
 
-// A cubic field in a grid, at places inside, beside the surface and on a node.
-TEST(Probes, ReadCubicFieldsExactlyInGridsIfAskedTo) {
+// A box of hexahedra about the origin.
+mesh::BlockMesh<3> grid(const Eigen::Vector3d& size, double mesh_size) {
   mesh::BodySpec body;
   body.name = "box";
-  body.shape = mesh::Box{.size = {1, 1, 1}};
-  body.mesh_size = 0.2;
+  body.shape = mesh::Box{.size = size};
+  body.mesh_size = mesh_size;
   body.cells = mesh::CellKind::hexahedron;
   body.material = MaterialId{0};
-  const auto mesh = mesh::make_blocks<3>({body});
+  return mesh::make_blocks<3>({body});
+}
+
+template <class Function>
+Eigen::VectorXd at_nodes(const mesh::BlockMesh<3>& mesh, const Function& function) {
+  Eigen::VectorXd field(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const NodeId node : mesh.nodes.ids()) field[node.value()] = function(mesh.nodes[node]);
+  return field;
+}
+
+// A cubic field in a grid, at places inside, beside the surface and on a node.
+TEST(Probes, ReadCubicFieldsExactlyInGridsIfAskedTo) {
+  const auto mesh = grid({1, 1, 1}, 0.2);
   const auto cubic = [](const Eigen::Vector3d& at) {
     return 1 + at.x() * at.x() * at.y() - 2 * std::pow(at.z(), 3) + at.x() * at.y() * at.z();
   };
-  Eigen::VectorXd field(static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (const NodeId node : mesh.nodes.ids()) field[node.value()] = cubic(mesh.nodes[node]);
+  const Eigen::VectorXd field = at_nodes(mesh, cubic);
   for (const Eigen::Vector3d& point :
        {Eigen::Vector3d(0.07, 0.02, -0.11), Eigen::Vector3d(0.49, -0.45, 0.5), Eigen::Vector3d(0.1, 0.1, 0.1)}) {
     EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point}}, Reading::cubic)[0], field), cubic(point), 1e-10)
@@ -85,16 +96,9 @@ TEST(Probes, ReadCubicFieldsExactlyInGridsIfAskedTo) {
 
 // Across the bar two layers of nodes determine a line, and along it they are as many as a cubic needs.
 TEST(Probes, ReadFieldsAlongABarOfOneCellAsFarAsItsLayersDetermineThem) {
-  mesh::BodySpec body;
-  body.name = "bar";
-  body.shape = mesh::Box{.size = {1, 0.1, 0.1}};
-  body.mesh_size = 0.1;
-  body.cells = mesh::CellKind::hexahedron;
-  body.material = MaterialId{0};
-  const auto mesh = mesh::make_blocks<3>({body});
+  const auto mesh = grid({1, 0.1, 0.1}, 0.1);
   const auto along = [](const Eigen::Vector3d& at) { return 1 + std::pow(at.x(), 3) - at.x() * at.x() * at.y() + 2 * at.z(); };
-  Eigen::VectorXd field(static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (const NodeId node : mesh.nodes.ids()) field[node.value()] = along(mesh.nodes[node]);
+  const Eigen::VectorXd field = at_nodes(mesh, along);
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0.03, 0, 0), Eigen::Vector3d(-0.48, 0.02, -0.05)}) {
     EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point}}, Reading::cubic)[0], field), along(point), 1e-10);
   }

@@ -184,11 +184,12 @@ TEST(ConvexPieces, ABlockWithAnIndentedEdgeIsItsElements) {
   EXPECT_EQ(mesh::convex_pieces(mesh, BlockId{0}).size(), 6U);
 }
 
+const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+
 // A box of n x n squares a side, its corners rounded to multiples of `digit`, turned; a fan of tetrahedra about its middle.
 mesh::BlockMesh<3> rounded_box(int n, double digit) {
   mesh::BlockMesh<3> mesh;
   const BodyId body = mesh.bodies.push_back({"box", MaterialId{0}, false, Vector3d::Zero()});
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   std::map<std::array<int, 3>, NodeId> nodes;
   const NodeId middle = mesh.nodes.push_back(Vector3d::Zero());
   const auto node = [&](std::array<int, 3> at) {
@@ -241,11 +242,9 @@ TEST(Penetration, ABoxWithDentedFacesLiesOnAPlateAsDeepAsTheyAre) {
   for (const double digit : {1e-7, 1e-6, 1e-5}) {
     for (const int n : {1, 2}) {
       mesh::BlockMesh<3> mesh = rounded_box(n, digit);
-      const Eigen::Quaterniond upright = Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized())).conjugate();
-      for (Vector3d& node : mesh.nodes) node = upright * node + Vector3d(0, 0, 0.052);
+      for (Vector3d& node : mesh.nodes) node = turn.conjugate() * node + Vector3d(0, 0, 0.052);
       add_box(mesh, {1, 1, 0.1}, Vector3d(0, 0, -0.05), true);
-      rigid::SettleOptions options = rigid::testing::for_time(0.5);
-      const auto packing = rigid::settle(mesh, rigid::testing::material(0.5), options);
+      const auto packing = rigid::settle(mesh, rigid::testing::material(0.5), rigid::testing::for_time(0.5));
       EXPECT_NEAR(packing.settled->top, 0.1, 3 * digit + 1e-6) << digit << " " << n;
       EXPECT_LT(packing.settled->max_penetration, 3 * digit + 1e-6) << digit << " " << n;
     }
