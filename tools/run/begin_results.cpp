@@ -14,8 +14,8 @@ namespace {
 void remove_earlier(const RunContext& context) {
   const RunFiles& files = context.files;
   try {
-    for (const char* series : {"heat", "contacts"}) output::remove_series(files.directory, series);
-    if (!context.scene.settle) output::remove_series(files.directory, "settle");
+    for (const char* series : {heat_series, contact_series}) output::remove_series(files.directory, series);
+    if (!context.scene.settle) output::remove_series(files.directory, settle_series);
     for (const auto& file : {files.probes(), files.restart()}) std::filesystem::remove(file);
   } catch (const std::filesystem::filesystem_error& error) {
     throw RunError(

@@ -65,12 +65,12 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
       probes_(probes_of_rows(pile.probes, model.rows)),
       restart_(files.restart()),
       several_threads_(threads_in_use() > 1),
-      series_(files.directory, "heat", resumed_from) {
+      series_(files.directory, heat_series, resumed_from) {
   const auto& numbers = pile.places.blocks;
   const auto share_blocks = [&] { series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh, numbers)); };
   const auto share_contacts = [&] {
     if (pile.contacts.contacts.empty()) return;
-    contact_series_.emplace(files.directory, "contacts", resumed_from);
+    contact_series_.emplace(files.directory, contact_series, resumed_from);
     contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts, numbers));
   };
   call_both(several_threads_, share_blocks, share_contacts);

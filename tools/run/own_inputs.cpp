@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 3> series{"heat", "contacts", "settle"};
+constexpr std::array series{heat_series, contact_series, settle_series};
 
 std::vector<fs::path> inputs(const Scene& scene) {
   std::vector<fs::path> files = scene.tables;

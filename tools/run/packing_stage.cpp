@@ -65,7 +65,7 @@ void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& b
 
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   const SettleStage& stage = *context.scene.settle;
-  output::Series series(context.files.directory, "settle");
+  output::Series series(context.files.directory, settle_series);
   const auto ids = blocks.blocks.ids();
   const auto identity = identity_arrays(blocks, Table<BlockId, BlockId>(std::vector(ids.begin(), ids.end())));
   const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {

@@ -5,6 +5,11 @@
 
 namespace scree::run {
 
+// Names of its series (engine/output/series.h).
+inline constexpr const char* settle_series = "settle";
+inline constexpr const char* heat_series = "heat";
+inline constexpr const char* contact_series = "contacts";
+
 struct RunFiles {
   std::filesystem::path directory;
 
