@@ -10,6 +10,10 @@ namespace scree::contact {
 // slight tilt; at 80 degrees a block that stands on a corner still touches with all the faces around it.
 inline constexpr double least_facing = 0.17364817766693033;  // cos(80 degrees)
 
+// Faces look at each other if the cosine between their normals is below minus this: perpendicular ones do not, however rounding
+// turns them.
+inline constexpr double least_opposed = 1e-9;
+
 // Below this fraction of the characteristic length a difference of two points is rounding and has no direction.
 inline constexpr double no_direction = 1e-9;
 
@@ -47,7 +51,7 @@ template <int dim, class Number>
 SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& query, double tolerance) {
   const Number zero{}, within = tolerance * query.length;
   PointAnswer<dim, Number> answer;
-  answer.near = below(dot<dim>(query.target_normal, query.owner_normal), zero);
+  answer.near = below(dot<dim>(query.target_normal, query.owner_normal), zero - least_opposed);
   const auto closest = closest_point<dim, Number>(query.corners, query.point);
   answer.on_target = closest.weights;
   const auto offset = minus<dim>(query.point, weighted_point<dim>(query.corners, closest.weights));

@@ -72,7 +72,7 @@ class Applier {
       });
     }
     if (shares.empty()) nothing_there(source.where, "heat.sources", source.name, source.region, "a part of an element");
-    model_.loads.push_back({source.name, listed(shares), source.power});
+    model_.loads.push_back({source.name, listed(shares), source.power, true});
   }
 
   void finish() {

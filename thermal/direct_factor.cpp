@@ -15,11 +15,6 @@ namespace scree::thermal {
 
 namespace {
 
-template <class Factor>
-std::unique_ptr<Factor> made_by(const char* name) {
-  return std::unique_ptr<Factor>(late_function<Factor*()>("libscree_factor.so", name)());
-}
-
 // Numbers too small for single precision are zeros: where they are kept as such, each takes the processor a hundred times as
 // long.
 float single(double value) {
@@ -66,7 +61,8 @@ class Cholesky : public DirectFactor {
     rough_is_new_ = true;
   }
 
-  std::unique_ptr<CholeskyAnalysis> analysis_ = made_by<CholeskyAnalysis>("scree_make_cholesky");
+  std::unique_ptr<CholeskyAnalysis> analysis_{
+      late_function<CholeskyAnalysis*()>("libscree_factor.so", "scree_make_cholesky")()};
   std::optional<FactorSize> size_;
   std::optional<SupernodalFactor> factor_;
   std::optional<SupernodalSolve> solve_;
@@ -80,10 +76,6 @@ class Cholesky : public DirectFactor {
 
 std::unique_ptr<DirectFactor> make_cholesky() {
   return std::make_unique<Cholesky>();
-}
-
-std::unique_ptr<DirectFactor> make_lu() {
-  return made_by<DirectFactor>("scree_make_lu");
 }
 
 }  // namespace scree::thermal

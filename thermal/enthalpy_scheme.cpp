@@ -102,10 +102,14 @@ class EnthalpyScheme : public TimeScheme {
 
   // The residual that rounding leaves [J]: a temperature is off by a quarter of a unit in its last place on average, of which
   // M's diagonal makes heat. At stiff joints it is what Newton's iteration comes to: 0.9 to 1.1 of this in the pile at beta
-  // 1000 to 1e6.
-  [[nodiscard]] double left_by_rounding(const Eigen::VectorXd& temperature) const {
+  // 1000 to 1e6. Where c or k has been far larger on the way from where its integral begins, that is what is rounded.
+  [[nodiscard]] double left_by_rounding(const Eigen::VectorXd& from, const Eigen::VectorXd& temperature) const {
     constexpr double quarter_of_a_unit = 0.25 * std::numeric_limits<double>::epsilon();
-    return quarter_of_a_unit * free_.gather(diagonal_.cwiseProduct(temperature.cwiseAbs())).sum();
+    Eigen::VectorXd integrals = balance_.largest_stored(from, temperature);
+    if (unit_conductance_.size() > 0)
+      integrals += scale_ * unit_conductance_.cwiseProduct(balance_.conducted(temperature).cwiseAbs());
+    const Eigen::VectorXd heat = diagonal_.cwiseProduct(temperature.cwiseAbs()).cwiseMax(integrals);
+    return quarter_of_a_unit * free_.gather(heat).sum();
   }
 
   // By which all free nodes alike take up so much heat [K].
@@ -140,7 +144,7 @@ class EnthalpyScheme : public TimeScheme {
       // What rounding leaves is flows between neighbours, which cancel in the sum: that is what the ledger lacks. Where another
       // solution would not make it less one change of all temperatures does.
       const double sum = std::abs(residual.sum());
-      const bool rounded = left <= near_rounding * left_by_rounding(stage.temperature);
+      const bool rounded = left <= near_rounding * left_by_rounding(from.temperature, stage.temperature);
       if (rounded && (sum <= enough || evened)) return true;
       if (rounded && sum > least_gain * sum_before) {
         stage.temperature += change_of_all(residual.sum());

@@ -15,6 +15,10 @@
 // differs from it by O(h^4), too (Krenk, ibid. 191, 2001, does so for waves). The rows of B add up to zero: what it passes on
 // is neither made nor lost.
 //
+// Sources. Q is what nodes get of a power p that is smooth in place, C p/(rho c), where M p/(rho c) belongs: Q - B C^-1 Q takes
+// its place. A flux over a surface has no such form here: one that varies along it, with a conductivity that is not the same
+// along and across it or cells that are no squares, is of order two.
+//
 // Held nodes. At them dT/dt = 0 whatever flows in, so they pass nothing on; what they share of their neighbours' heating comes
 // out of the hold. Where a hold's temperature differs from the initial one, M carries the jump into the nodes beside it, the
 // other way and by some tenth of it: T = T0 + C^-1 (I + B C^-1) B (T_held - T0) at t = 0+. It is this that makes

@@ -17,7 +17,7 @@ constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
 
 // Of a curve, continued below 0 K by its value there, where an iteration may stray.
 double integral(const Curve& curve, double temperature) {
-  return temperature >= 0 ? curve.integral(temperature) : curve(0) * temperature;
+  return temperature >= 0 ? curve.integral(temperature) : curve.integral(0) + curve(0) * temperature;
 }
 double value(const Curve& curve, double temperature) {
   return curve(std::max(temperature, 0.0));
@@ -65,7 +65,7 @@ double exchanged_at(const Exchange& with, std::size_t e, Eigen::Index i, const E
          exchange_slope(with.law, tangent->drive.exchanges[e], i, at) * (temperature[row] - at);
 }
 
-// Where the curve's integral is that from 0 K to `from` and `rise` more [K]. Newton's iteration from a guess on, which halves
+// Where the curve's integral is that at `from` and `rise` more [K]. Newton's iteration from a guess on, which halves
 // what is left where it would leave it.
 double integrated_to(const Curve& curve, double from, double rise, double guess) {
   if (curve.constant()) return from + rise / *curve.constant();
@@ -148,6 +148,14 @@ Eigen::VectorXd HeatBalance::stored(const Eigen::VectorXd& from, const Eigen::Ve
   const auto heat = &VaryingProperties::specific_heat;
   const Eigen::VectorXd before = at_nodes(*model_.varying, heat, from, integral);
   return model_.varying->mass.cwiseProduct(at_nodes(*model_.varying, heat, to, integral) - before);
+}
+
+Eigen::VectorXd HeatBalance::largest_stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  if (!model_.varying) return model_.capacity.cwiseProduct(from.cwiseAbs().cwiseMax(to.cwiseAbs()));
+  const auto heat = &VaryingProperties::specific_heat;
+  return model_.varying->mass.cwiseProduct(at_rows(*model_.varying, heat, [&](const Curve& curve, Eigen::Index row) {
+    return std::max(std::abs(integral(curve, from[row])), std::abs(integral(curve, to[row])));
+  }));
 }
 
 double HeatBalance::stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {

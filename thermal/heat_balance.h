@@ -1,11 +1,11 @@
 // The two sides of the heat balance dH/dt = F(T, t): what each node stores and what flows into it.
 //
-// Storage: H = m int_0^T c dT, m the node's mass; C T where c does not depend on temperature. Only differences of H are used,
-// so energy is conserved whatever c(T) does.
+// Storage: H = m int c dT up to T, m the node's mass; C T where c does not depend on temperature. Only differences of H are
+// used, so energy is conserved whatever c(T) does, and the integral may begin where it likes (Curve::integral).
 //
-// Conduction: where k depends on temperature, Kirchhoff's Phi = int_0^T k dT takes the place of k T at the nodes: the heat that
-// leaves is U Phi(T), U the blocks' matrix of eqs. (4)-(5) at 1 W/m/K (for a tensor k: its ratios). Flux is -grad Phi exactly,
-// so a steady k(T) costs no accuracy. Flows stay pairs of equal and opposite ones.
+// Conduction: where k depends on temperature, Kirchhoff's Phi = int k dT up to T, of one material from one beginning, takes the
+// place of k T at the nodes: the heat that leaves is U Phi(T), U the blocks' matrix of eqs. (4)-(5) at 1 W/m/K (for a tensor k:
+// its ratios). Flux is -grad Phi exactly, so a steady k(T) costs no accuracy. Flows stay pairs of equal and opposite ones.
 #pragma once
 
 #include "thermal/drive.h"
@@ -55,6 +55,8 @@ class HeatBalance {
 
   // Heat that a change of temperature stores in each node [J].
   [[nodiscard]] Eigen::VectorXd stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+  // The larger of each node's H at both [J]: what is stored is a difference of these, with their rounding.
+  [[nodiscard]] Eigen::VectorXd largest_stored(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
   // In a single one, and in all of them together.
   [[nodiscard]] double stored_at(NodeId node, const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
   [[nodiscard]] double stored_in_all(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;

@@ -35,7 +35,8 @@ struct Hold {
 struct Load {
   std::string name;
   NodeShares on;
-  Function density;  // [W/m2] or [W/m3]; a total flow [W] has shares that add up to 1
+  Function density;        // [W/m2] or [W/m3]; a total flow [W] has shares that add up to 1
+  bool in_volume = false;  // a source in elements
 };
 
 // Heat exchanged with surroundings: the equations stand in exchange.h.

@@ -63,8 +63,9 @@ class HeatRun::Implementation {
                       state.ledger.by_surroundings.size() == state_.ledger.by_surroundings.size();
     if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
-    earlier_factorisations_ = state_.factorisations;
     scheme_.scheme->take_matrix(state_.matrix);
+    // The matrix that is there again was counted when it was made.
+    earlier_factorisations_ = state_.factorisations - scheme_.scheme->factorisations();
   }
 
   void advance_to(double target, const Progress& progress) {
@@ -132,7 +133,7 @@ class HeatRun::Implementation {
   }
 
   // As many as one step takes, in powers of two that begin at multiples of themselves; the temperatures are to be smooth from
-  // the first of the ends on that the cubic needs.
+  // the first of the ends on that the cubic needs, and in the span as its steps will look at it, which may see a shorter pulse.
   [[nodiscard]] double intervals_from(double nearest, double every, double limit) const {
     double count = 1;
     constexpr std::size_t earliest = BetweenSteps::ends_before - 2;
@@ -140,7 +141,8 @@ class HeatRun::Implementation {
     const auto fits = [&](double more) {
       return StepGrid(0, more * every, state_.next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
              (nearest + more) * every <= limit + on_grid * every &&
-             are_smooth(state_.earlier[earliest].time, (nearest + more) * every);
+             are_smooth(state_.earlier[earliest].time, (nearest + more) * every) &&
+             are_smooth(nearest * every, nearest * every + more * every);
     };
     while (fits(2 * count)) count *= 2;
     return count;
@@ -175,6 +177,7 @@ class HeatRun::Implementation {
     include_drive(time);
     state_.time = time;
     state_.next_step = 0;
+    state_.earlier.clear();
   }
 
   void smooth_steps(double begin, double length, const TimeBends& bends, const Progress& progress) {

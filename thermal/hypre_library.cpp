@@ -1,6 +1,7 @@
 #include "thermal/hypre_library.h"
 
 #include <cstdlib>
+#include <string>
 
 #include <dlfcn.h>
 #ifdef __SANITIZE_ADDRESS__
@@ -15,9 +16,9 @@ namespace scree::thermal::hypre {
 
 namespace {
 
-[[noreturn]] void refuse() {
+[[noreturn]] void refuse(const std::string& reason) {
   throw RunError(
-      fmt::format("hypre could not be loaded: {}. Install {}, or take heat.solver: cholesky", dlerror(), SCREE_HYPRE_LIBRARY));
+      fmt::format("hypre could not be loaded: {}. Install {}, or take heat.solver: cholesky", reason, SCREE_HYPRE_LIBRARY));
 }
 
 // One process that talks to nobody: Open MPI then starts in hundredths of a second instead of half a second, without helpers
@@ -54,7 +55,8 @@ void start_mpi() {
 // Loaded once; what was loaded stays.
 void* library() {
   static void* const handle = dlopen(SCREE_HYPRE_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
-  if (handle == nullptr) refuse();
+  static const std::string reason = handle == nullptr ? dlerror() : "";
+  if (handle == nullptr) refuse(reason);
   return handle;
 }
 
@@ -62,7 +64,7 @@ void* library() {
 
 void* find(const char* name) {
   void* const symbol = dlsym(library(), name);  // of what it is linked with, too
-  if (symbol == nullptr) refuse();
+  if (symbol == nullptr) refuse(dlerror());
   return symbol;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <Eigen/IterativeLinearSolvers>
 
+#include "engine/base/check.h"
 #include "thermal/exchange.h"
 #include "thermal/kirchhoff_matrix.h"
 
@@ -21,9 +23,7 @@ struct LumpingEstimate::Patch {
   double heat = 0;           // into the block [W]
   double conductance = 0;    // [W/K]
   PatchResistance resists;
-  // Of the entries in K's column of the block that belong to it; none for an exchange.
-  int first = 0;
-  int last = 0;
+  std::span<const int> entries = {};  // in K's column of the block that belong to it; none for an exchange
 };
 
 // What flows through one block's patches makes of it.
@@ -42,6 +42,14 @@ LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   conductance_ = free_.block(model.conductance);
   if (!is_symmetric(model)) unit_conductance_ = free_.block(model.varying->unit_conductance);
+  // A neighbour's rows need not follow each other.
+  for (const LumpedBlock& block : blocks_) {
+    const auto begin = static_cast<std::ptrdiff_t>(entries_.size());
+    const int* column = model.conductance.outerIndexPtr() + block.row.value();
+    for (int entry = column[0]; entry < column[1]; ++entry) entries_.push_back(entry);
+    std::stable_sort(entries_.begin() + begin, entries_.end(),
+                     [&](int one, int other) { return neighbour_in(one) < neighbour_in(other); });
+  }
 }
 
 LumpingError LumpingEstimate::start() const {
@@ -60,24 +68,25 @@ void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& d
   error.largest = std::max(error.largest, inside + error.carried.lpNorm<Eigen::Infinity>());
 }
 
-// A neighbour's rows follow each other, as its nodes do.
 template <class Visit>
 void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const {
   const SparseMatrix& k = model_.conductance;
+  std::span<const int> left = entries_;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const int row = blocks_[i].row.value();
-    const int end = k.outerIndexPtr()[row + 1];
-    for (int first = k.outerIndexPtr()[row]; first < end;) {
-      Patch patch{i, 0, 0, blocks_[i].contact, first, first};
-      const BlockId neighbour = block_of(k.innerIndexPtr()[first]);
-      for (; patch.last < end && block_of(k.innerIndexPtr()[patch.last]) == neighbour; ++patch.last) {
-        const int other = k.innerIndexPtr()[patch.last];
+    for (auto in_column = k.outerIndexPtr()[row + 1] - k.outerIndexPtr()[row]; in_column > 0;) {
+      Patch patch{i, 0, 0, blocks_[i].contact};
+      const BlockId neighbour = neighbour_in(left.front());
+      std::size_t count = 0;
+      for (; in_column > 0 && neighbour_in(left[count]) == neighbour; ++count, --in_column) {
+        const int other = k.innerIndexPtr()[left[count]];
         if (other == row) continue;
-        patch.conductance -= k.valuePtr()[patch.last];
-        patch.heat -= k.valuePtr()[patch.last] * (temperature[other] - temperature[row]);
+        patch.conductance -= k.valuePtr()[left[count]];
+        patch.heat -= k.valuePtr()[left[count]] * (temperature[other] - temperature[row]);
       }
+      patch.entries = left.first(count);
+      left = left.subspan(count);
       if (patch.conductance > 0) visit(patch);
-      first = patch.last;
     }
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
@@ -90,13 +99,13 @@ void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const D
       const auto at = static_cast<Eigen::Index>(n);
       const double t = temperature[row.value()];
       visit(Patch{static_cast<std::size_t>(position), exchanged_heat(exchange.law, rates, at, t),
-                  exchange_slope(exchange.law, rates, at, t), blocks_[static_cast<std::size_t>(position)].exchange, 0, 0});
+                  exchange_slope(exchange.law, rates, at, t), blocks_[static_cast<std::size_t>(position)].exchange});
     }
   }
 }
 
-BlockId LumpingEstimate::block_of(int row) const {
-  return model_.blocks[NodeId(static_cast<std::size_t>(row))];
+BlockId LumpingEstimate::neighbour_in(int entry) const {
+  return model_.blocks[NodeId(static_cast<std::size_t>(model_.conductance.innerIndexPtr()[entry]))];
 }
 
 std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {
@@ -121,7 +130,7 @@ Eigen::VectorXd LumpingEstimate::missing(const Eigen::VectorXd& temperature, con
     const double surface = (patch.heat > 0 ? of_block.in : of_block.out) + patch.resists.constriction * std::abs(patch.heat);
     const double less = std::copysign(patch.conductance * surface, patch.heat);
     heat[block.row.value()] -= less;
-    for (int entry = patch.first; entry < patch.last; ++entry) {
+    for (const int entry : patch.entries) {
       const int other = k.innerIndexPtr()[entry];
       if (other != block.row.value()) heat[other] -= less * k.valuePtr()[entry] / patch.conductance;  // K_ij < 0
     }
@@ -139,6 +148,8 @@ void LumpingEstimate::carry(const Eigen::VectorXd& heat, const Linearised& at, d
   solver.setTolerance(accuracy);
   const Eigen::VectorXd before = free_.gather(carried);
   const Eigen::VectorXd after = solver.solveWithGuess(stored.cwiseProduct(before) + free_.gather(heat), before);
+  if (solver.info() != Eigen::Success || !after.allFinite())
+    throw RunError("The error that lumped blocks make could not be estimated: its equations were not solved. Mesh all blocks");
   carried = free_.scatter(after);
 }
 

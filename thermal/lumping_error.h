@@ -37,7 +37,7 @@ class LumpingEstimate {
   // Every patch of lumped blocks, each by visit(Patch).
   template <class Visit>
   void for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const;
-  [[nodiscard]] BlockId block_of(int row) const;
+  [[nodiscard]] BlockId neighbour_in(int entry) const;
   [[nodiscard]] std::vector<Flows> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& temperature, const Drive& drive,
                                         const std::vector<Flows>& flows) const;
@@ -47,6 +47,7 @@ class LumpingEstimate {
   const std::vector<LumpedBlock>& blocks_;
   HeatBalance balance_;
   FreeNodes free_;
+  std::vector<int> entries_;       // of K in the columns of lumped blocks, in turn, each sorted by neighbour
   SparseMatrix conductance_;       // between free rows [W/K]
   SparseMatrix unit_conductance_;  // of U, if there is one
 };

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
+#include "thermal/block_conduction.h"
 #include "thermal/fluxes.h"
 #include "thermal/heat_balance.h"
 
@@ -25,6 +28,22 @@ std::vector<Point<dim>> recovered_fluxes(const mesh::BlockMesh<dim>& mesh, const
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= volumes[i];
   return sums;
 }
+
+// K^-1 of a block times its material's conductivity [-]. Where that is the same in all directions, the identity to the bit.
+template <int dim>
+struct Resistivity {
+  explicit Resistivity(const Tensor<dim>& ratios) : whole(Tensor<dim>::Identity()), root(whole) {
+    if (ratios == whole) return;
+    const Eigen::SelfAdjointEigenSolver<Tensor<dim>> axes(ratios);
+    root = axes.operatorInverseSqrt();
+    whole = root * root;
+    largest = 1 / axes.eigenvalues().minCoeff();
+  }
+
+  Tensor<dim> whole;
+  Tensor<dim> root;  // whose square it is
+  double largest = 1;
+};
 
 // Mean over a simplex of the square of a linear vector field, from its corner values.
 template <int dim>
@@ -51,29 +70,30 @@ SpaceError estimate_space_error(const mesh::BlockMesh<dim>& mesh, const Table<Ma
   double whole = 0;
   for (const mesh::Block& block : mesh.blocks) {
     const Material& material = materials[mesh.bodies[block.body].material];
+    const Resistivity<dim> resistivity(conductivity_ratios<dim>(*material.conductivity, block));
     for (const ElementId e : block.elements) {
-      std::array<Point<dim>, dim + 1> gap;
-      std::array<Point<dim>, dim + 1> smooth;
+      std::array<Point<dim>, dim + 1> curved, gap, smooth;
       double mean_rate = 0;
       double mean_temperature = 0;
       for (int i = 0; i <= dim; ++i) {
         const NodeId node = mesh.elements[e][i];
-        smooth[i] = recovered[node.index()];
-        gap[i] = smooth[i] - fluxes[e.index()];
+        const Point<dim> missing = recovered[node.index()] - fluxes[e.index()];
+        curved[i] = resistivity.whole * missing;
+        gap[i] = resistivity.root * missing;
+        smooth[i] = resistivity.root * recovered[node.index()];
         mean_rate += rate[node.value()] / (dim + 1);
         mean_temperature += temperature[node.value()] / (dim + 1);
       }
-      const double k = material.conductivity->mean(mean_temperature);
+      const double k = material.conductivity->value(mean_temperature);
       const double volumetric_heat = *material.density * (*material.specific_heat)(mean_temperature);
       const double volume = mesh::element_volume(mesh, e);
-      const double square = mean_square<dim>(gap);
       if (block.elements.size() > 1) {
-        missed += volume / k * square;
+        missed += volume / k * mean_square<dim>(gap);
         whole += volume / k * mean_square<dim>(smooth);
       }
       const double h = mesh::element_mean_edge(mesh, e);
-      const double bulge = volumetric_heat * std::abs(mean_rate) * h * h / (8 * k);
-      error.of_element[e.index()] = std::max(std::sqrt(3 * square) / 4 * h / k, bulge);
+      const double bulge = volumetric_heat * std::abs(mean_rate) * h * h / (8 * k) * resistivity.largest;
+      error.of_element[e.index()] = std::max(std::sqrt(3 * mean_square<dim>(curved)) / 4 * h / k, bulge);
       error.largest = std::max(error.largest, error.of_element[e.index()]);
     }
   }

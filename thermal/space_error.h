@@ -2,12 +2,10 @@
 //
 // Between its nodes a linear temperature misses about |T''| h^2/8. Two sources tell of T'':
 // - the recovered flux q* (Zienkiewicz & Zhu 1987), the mean of the elements' fluxes around each node of a block, which is of
-// higher
-//   order than q itself. Where T'' is constant q* - q grows linearly to k T'' h/2, so that h sqrt(3)/4 times its root mean
-//   square over k is T'' h^2/8;
-// - the heat balance of the element, k T'' = rho c dT/dt, which is all there is in a block of one element. Sources in such a
-// block are
-//   not seen.
+//   higher order than q itself. Where T'' is constant K^-1 (q* - q) grows linearly to T'' h/2, so that h sqrt(3)/4 times its
+//   root mean square is T'' h^2/8;
+// - the heat balance of the element, k T'' = rho c dT/dt with the least k of all directions, which is all there is in a block
+//   of one element. Sources in such a block are not seen.
 // The larger of the two counts. Nothing is known of what a coarse mesh makes of a joint; refine, or compare with another mesh.
 #pragma once
 
@@ -18,7 +16,7 @@ namespace scree::thermal {
 struct SpaceError {
   std::vector<double> of_element;  // [K]
   double largest = 0;              // of them [K]
-  // |q* - q| over |q*|, both in the energy norm (weighted by 1/k) [-].
+  // |q* - q| over |q*|, both in the energy norm (weighted by K^-1) [-].
   // Over the blocks of more than one element; nothing if there are none, since one element cannot be smoothed.
   std::optional<double> relative;
 };

@@ -1,7 +1,6 @@
 #include "tools/render_command.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include "engine/base/units.h"
 #include "engine/output/render.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/output_place.h"
 
 namespace scree {
 
@@ -92,14 +92,6 @@ void check_series(const std::filesystem::path& index) {
   throw InputError(wrong);
 }
 
-// Where a picture can be written.
-void check_picture(const std::filesystem::path& png) {
-  if (png.extension() != ".png") refuse("--picture", png.string(), "must end in .png");
-  std::error_code ignored;
-  const std::filesystem::path folder = std::filesystem::absolute(png).parent_path();
-  if (!std::filesystem::is_directory(folder, ignored)) refuse("--picture", png.string(), "must be in a folder that exists");
-}
-
 // Half as many pixels as a picture, since there are many of them.
 constexpr int animation_width = 840;
 constexpr int animation_height = 490;
@@ -129,6 +121,7 @@ int animate(const RenderArguments& arguments, output::Picture picture) {
   picture.width = animation_width;
   picture.height = animation_height;
   if (picture.time) refuse("--time", arguments.time, "not given with --animation, which shows all frames");
+  run::check_output_place("--animation", arguments.animation, {".webm", ".mp4"});
   try {
     animate_or_stop(picture, {duration_of(arguments), run::check_interrupt}, arguments.animation);
   } catch (const run::Interrupted&) {
@@ -179,7 +172,7 @@ int render_command(const RenderArguments& arguments) {
   if (!arguments.animation.empty()) return animate(arguments, picture);
   const std::filesystem::path png =
       arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
-  check_picture(png);
+  run::check_output_place("--picture", png, {".png"});
   const double drawn = output::render(picture, png);
   if (picture.time && *picture.time != drawn) {
     fmt::print(stderr, "note: the frame drawn is the nearest to {}, at {:.10g} s\n", arguments.time, drawn);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -234,6 +236,11 @@ const Checked& Checked::at(std::string_view name) const {
   static const Checked nothing;
   const Checked* value = find(name);
   return value == nullptr ? nothing : *value;
+}
+
+int Checked::integer() const {
+  SCREE_EXPECT(std::abs(number()) <= std::numeric_limits<int>::max());
+  return static_cast<int>(number());
 }
 
 Eigen::Vector3d Checked::vector() const {

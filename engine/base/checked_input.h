@@ -32,7 +32,7 @@ struct Checked {
   [[nodiscard]] const Checked& at(std::string_view name) const;  // a value that is not sound if there is none
 
   [[nodiscard]] double number() const { return numbers.empty() ? 0 : numbers.front(); }
-  [[nodiscard]] int integer() const { return static_cast<int>(number()); }
+  [[nodiscard]] int integer() const;  // of a key whose range is within that of int
   [[nodiscard]] bool flag() const { return number() != 0; }
   [[nodiscard]] Eigen::Vector3d vector() const;  // z = 0 in 2-D
 

@@ -139,7 +139,7 @@ class Formula : public Curve::Form {
 
   struct Kept {
     double begin;   // [K]
-    double before;  // integral from 0 K to there
+    double before;  // integral from the reference to there
     bool smooth;    // or the formula itself is asked
     Piece piece;
   };
@@ -164,35 +164,66 @@ class Formula : public Curve::Form {
   }
 
   [[nodiscard]] double integral_beyond(double temperature) const {
-    if (temperature < 0) return through(0, temperature).whole();
     std::call_once(cut_, [&] { cut(); });
+    if (temperature < 0) return kept_.front().before + through(0, temperature).whole();
     return temperature == last_kelvin ? to_last_ : to_last_ + through(last_kelvin, temperature).whole();
   }
 
   void cut() const {
+    std::vector<double> rises;  // of the integral over each
     for (int k = 0; k < last_kelvin; ++k) {
       first_of_kelvin_.push_back(kept_.size());
       room_ = most_pieces;
-      append(k, k + 1, through(k, k + 1), most_halvings);
+      append(k, k + 1, through(k, k + 1), most_halvings, rises);
     }
     first_of_kelvin_.push_back(kept_.size());
+    sum_up(rises);
+  }
+
+  // From a reference that is usual for temperatures, or is the nearest to it at which there is a value, up and down: where a
+  // formula grows beyond all bounds towards 0 K, as 1/T^2, sums from there would drown all differences in their rounding.
+  void sum_up(const std::vector<double>& rises) const {
+    constexpr int reference = 300;  // [K]
+    std::size_t start = first_of_kelvin_[reference];
+    for (int away = 0; away < last_kelvin && !std::isfinite(rises[start]); ++away) {
+      const int kelvin = away % 2 == 0 ? reference - away / 2 : reference + away / 2 + 1;
+      if (kelvin >= 0) start = first_of_kelvin_[static_cast<std::size_t>(kelvin)];
+    }
+    double sum = 0;
+    for (std::size_t i = start; i < kept_.size(); ++i) {
+      kept_[i].before = sum;
+      sum += rises[i];
+    }
+    to_last_ = sum;
+    sum = 0;
+    for (std::size_t i = start; i-- > 0;) {
+      sum -= rises[i];
+      kept_[i].before = sum;
+    }
   }
 
   // Pieces on each of which Gauss's rule is exact, so that the integral rises wherever the formula is positive.
-  void append(double from, double to, const Piece& whole, int halvings) const {
+  void append(double from, double to, const Piece& whole, int halvings, std::vector<double>& rises) const {
     const double middle = 0.5 * (from + to);
     const Piece left = through(from, middle), right = through(middle, to);
     const bool smooth = std::abs(left.whole() + right.whole() - whole.whole()) <=
                             smooth_integral * (std::abs(left.whole()) + std::abs(right.whole())) &&
                         follows(whole, from, left, middle, right, to);
-    if (!smooth && halvings > 0 && room_ > 0) {
+    const bool nowhere = !std::isfinite(whole.whole()) && valueless(from, middle) && valueless(middle, to);
+    if (!smooth && !nowhere && halvings > 0 && room_ > 0) {
       --room_;
-      append(from, middle, left, halvings - 1);
-      append(middle, to, right, halvings - 1);
+      append(from, middle, left, halvings - 1, rises);
+      append(middle, to, right, halvings - 1, rises);
       return;
     }
-    kept_.push_back({from, to_last_, smooth, whole});
-    to_last_ += smooth ? whole.whole() : left.whole() + right.whole();
+    kept_.push_back({from, 0, smooth, whole});
+    rises.push_back(smooth ? whole.whole() : left.whole() + right.whole());
+  }
+
+  // Whether the formula has no value at any of Gauss's points.
+  [[nodiscard]] bool valueless(double from, double to) const {
+    return std::none_of(gauss_points.begin(), gauss_points.end(),
+                        [&](double s) { return std::isfinite(raw(0.5 * (from + to) + 0.5 * (to - from) * s)); });
   }
 
   // Whether the polynomial of a whole gives what those of its halves do.
@@ -220,7 +251,7 @@ class Formula : public Curve::Form {
   mutable std::once_flag cut_;
   mutable std::vector<Kept> kept_;                    // ascending
   mutable std::vector<std::size_t> first_of_kelvin_;  // of these, and their number
-  mutable double to_last_ = 0;                        // integral from 0 K to the end of the last
+  mutable double to_last_ = 0;                        // integral from the reference to the end of the last
   mutable std::size_t room_ = 0;                      // pieces that a kelvin may still be cut into
 };
 

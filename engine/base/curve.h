@@ -36,8 +36,10 @@ class Curve {
   // not known and taken for 0.
   [[nodiscard]] double slope(double temperature) const;
 
-  // From 0 K. Exact for a number and a table; of a formula by Gauss's rule of five points in each kelvin, which is halved where
-  // the formula bends or jumps: exact to rounding for polynomials to the ninth degree, rising wherever the formula is positive.
+  // From a temperature that is the curve's own, so that differences are what it is for: 0 K of a number and a table, 300 K of a
+  // formula, or the nearest at which that has a value. Exact for a number and a table; of a formula by Gauss's rule of five
+  // points in each kelvin, which is halved where the formula bends or jumps: exact to rounding for polynomials to the ninth
+  // degree, rising wherever the formula is positive. Throws InputError where a formula without a value lies in between.
   [[nodiscard]] double integral(double temperature) const;
 
   [[nodiscard]] std::optional<double> constant() const;

@@ -107,9 +107,12 @@ void apply_override(InputValue& root, const std::string& assignment) {
   }
   const std::string text = assignment.substr(equals + 1);
   InputValue value = parse_yaml(text, "--set " + path);
-  if (text.find_first_not_of(" \t") == std::string::npos) refuse(path, "empty", "null takes a key away");
-
-  if (value.kind == Kind::empty) return take_away(root, parts, 0);
+  if (value.kind == Kind::empty) {
+    const auto begin = std::min(text.find_first_not_of(" \t"), text.size());
+    if (!text.substr(begin).starts_with('~') && !text.substr(begin).starts_with("null"))
+      refuse(path, begin == text.size() ? "empty" : text, "null takes a key away");
+    return take_away(root, parts, 0);
+  }
 
   relocate(value, {"--set " + path, 0, 0});
   InputValue* place = &root;

@@ -1,6 +1,7 @@
 #include "engine/base/table_file.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -112,8 +113,11 @@ class Reader {
 
   std::optional<double> read_number(const Cell& cell, const UnitConverter& unit) {
     const auto number = parse_quantity(cell.text, quantity::number);
-    if (const double* value = std::get_if<double>(&number)) return unit(*value);
-    refuse(cell.column, std::string(cell.text), std::get<UnitProblem>(number).reason, "");
+    const auto* problem = std::get_if<UnitProblem>(&number);
+    const double value = problem == nullptr ? unit(std::get<double>(number)) : 0;
+    if (problem == nullptr && std::isfinite(value)) return value;
+    refuse(cell.column, std::string(cell.text),
+           problem == nullptr ? "too large for a number in double precision" : problem->reason, "");
     return std::nullopt;
   }
 

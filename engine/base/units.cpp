@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "engine/base/check.h"
+#include "engine/base/plain_locale.h"
 
 namespace scree {
 
@@ -42,6 +43,7 @@ void add_names(ut_system* system) {
 
 System read_table(const char* file) {
   ut_set_error_message_handler(ut_ignore);
+  const PlainLocale decimal_points;
   System system{ut_read_xml(file)};
   if (system) add_names(system.get());
   return system;

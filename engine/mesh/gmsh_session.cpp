@@ -1,6 +1,8 @@
 #include "engine/mesh/gmsh_session.h"
 
 #include <algorithm>
+#include <clocale>
+#include <string>
 #include <unordered_map>
 
 #include "engine/base/threads.h"
@@ -26,12 +28,15 @@ class Session {
     } catch (const GmshFailure&) {  // of a session that is over
     }
     use_threads(threads_);
+    std::setlocale(LC_ALL, locale_.c_str());
   }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
  private:
-  int threads_ = threads_in_use();  // which Gmsh sets to its own number for all loops of this thread
+  // What Gmsh sets to its own: the threads for all loops of this thread, and the locale of the process.
+  int threads_ = threads_in_use();
+  std::string locale_ = std::setlocale(LC_ALL, nullptr);
 };
 
 template <int corners>

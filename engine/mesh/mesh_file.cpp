@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/scratch_folder.h"
 #include "engine/mesh/closed_surface.h"
 #include "engine/mesh/gmsh_session.h"
 #include "engine/mesh/point_checks.h"
@@ -18,7 +19,8 @@ namespace scree::mesh {
 
 namespace {
 
-// Gmsh runs whatever does not begin like a mesh as a script of its own language, which can start programs.
+// Gmsh runs whatever is no mesh by its name or its beginning as a script of its own language, which can start programs, and
+// FILE.opt beside a mesh, too. So it is shown nothing else, by a name of ours in a folder where nothing else is.
 void expect_mesh_format(const std::filesystem::path& path) {
   constexpr std::string_view expected = "$MeshFormat";
   std::string start(expected.size(), '\0');
@@ -26,10 +28,13 @@ void expect_mesh_format(const std::filesystem::path& path) {
   if (start != expected) throw std::runtime_error("it does not begin with $MeshFormat");
 }
 
-RawMesh read_by_gmsh(const std::filesystem::path& path) {
+RawMesh read_by_gmsh(const std::filesystem::path& path, const std::string& extension) {
+  const ScratchFolder folder;
+  const std::filesystem::path shown = folder.path() / ("mesh" + extension);
+  std::filesystem::create_symlink(std::filesystem::absolute(path), shown);
   RawMesh raw;
   with_gmsh([&] {
-    gmsh::open(path.string());
+    gmsh::open(shown.string());
     raw = model_mesh();
   });
   return raw;
@@ -37,10 +42,10 @@ RawMesh read_by_gmsh(const std::filesystem::path& path) {
 
 MeshReaders all_readers(const MeshReaders& more) {
   MeshReaders readers = more;
-  readers[".stl"] = read_by_gmsh;
+  readers[".stl"] = [](const std::filesystem::path& path) { return read_by_gmsh(path, ".stl"); };
   readers[".msh"] = [](const std::filesystem::path& path) {
     expect_mesh_format(path);
-    return read_by_gmsh(path);
+    return read_by_gmsh(path, ".msh");
   };
   return readers;
 }

@@ -4,37 +4,36 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/csv.h"
+#include "engine/base/plain_number.h"
 #include "engine/output/probe_table.h"
 
 namespace scree::output {
 
 namespace {
 
-// The cells of a line as ProbeTable writes them (RFC 4180).
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool doubled = quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"';
-    if (doubled) {
-      cells.back() += line[++i];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
-    }
-  }
-  return cells;
+// The finished lines of a table below its comments: one that ends with the file is still being written.
+std::string_view rows_of(std::string_view text) {
+  text = text.substr(0, text.rfind('\n') + 1);
+  while (text.starts_with('#')) text.remove_prefix(text.find('\n') + 1);
+  return text;
+}
+
+double number_of(const std::filesystem::path& file, const std::string& cell) {
+  const auto number = plain_number(cell);
+  if (!number) throw RunError(fmt::format("{}: is damaged: \"{}\" is no number. Run the scene again", file.string(), cell));
+  return *number;
 }
 
 }  // namespace
 
 ProbeHistory read_probe_history(const std::filesystem::path& file) {
-  std::ifstream stream(file);
+  std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     Problem problem;
     problem.key = "output.probes";
@@ -44,9 +43,8 @@ ProbeHistory read_probe_history(const std::filesystem::path& file) {
   }
   ProbeHistory history;
   std::vector<std::vector<double>*> columns;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> cells = cells_of(line);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  for (const std::vector<std::string>& cells : csv_rows(rows_of(text))) {
     if (columns.empty()) {
       columns.push_back(&history.times);
       for (auto name = std::next(cells.begin()); name != cells.end(); ++name) {
@@ -55,7 +53,9 @@ ProbeHistory read_probe_history(const std::filesystem::path& file) {
       }
       continue;
     }
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i]->push_back(std::stod(cells.at(i)));
+    if (cells.size() != columns.size())
+      throw RunError(fmt::format("{}: is damaged: rows are not equally long. Run the scene again", file.string()));
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i]->push_back(number_of(file, cells[i]));
   }
   return history;
 }

@@ -1,7 +1,6 @@
 #include "engine/output/probe_table.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -11,17 +10,12 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/base/csv.h"
+#include "engine/base/plain_number.h"
 
 namespace scree::output {
 
 namespace {
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 constexpr std::string_view exact_ending = " exact";
 
@@ -30,7 +24,7 @@ std::string head(const std::vector<std::string>& comments, const std::vector<std
   std::string text;
   for (const std::string& comment : comments) text += fmt::format("# {}\n", comment);
   text += "time";
-  for (const std::string& name : names) text += ',' + csv_field(name);
+  for (const std::string& name : names) text += ',' + csv_cell(name);
   return text + '\n';
 }
 
@@ -69,9 +63,9 @@ ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string
   double last = -1;
   for (const std::string& line : lines) {
     if (text.size() >= first.size()) {
-      const double time = std::strtod(line.c_str(), nullptr);
-      if (!(time <= keep_until)) break;
-      last = time;
+      const auto time = plain_number(std::string_view(line).substr(0, line.find(',')));
+      if (!time || !(*time <= keep_until)) break;
+      last = *time;
     }
     text += line;
   }

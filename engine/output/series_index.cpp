@@ -1,13 +1,12 @@
 #include "engine/output/series_index.h"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/base/plain_number.h"
 
 namespace scree::output {
 
@@ -25,12 +24,12 @@ std::vector<SeriesEntry> read_index(const std::filesystem::path& index) {
   std::vector<SeriesEntry> entries;
   for (const auto& [name, frame] : *collection) {
     if (name != "DataSet") continue;
-    const auto time = frame.get_optional<std::string>("<xmlattr>.timestep");
+    const auto time = plain_number(frame.get("<xmlattr>.timestep", std::string()));
     const auto file = frame.get_optional<std::string>("<xmlattr>.file");
     if (!time || !file || !std::filesystem::is_regular_file(index.parent_path() / *file)) {
       throw RunError(fmt::format("{}: names a frame that is missing ({})", index.string(), file.value_or("no name")));
     }
-    entries.push_back({std::strtod(time->c_str(), nullptr), *file});
+    entries.push_back({*time, *file});
   }
   return entries;
 }

@@ -1,32 +1,27 @@
 #include "engine/output/shown_frame.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include "engine/base/check.h"
 #include "engine/output/contact_lines.h"
+#include "engine/output/open_vtu.h"
 
 namespace scree::output {
 
 namespace {
 
 vtkSmartPointer<vtkUnstructuredGrid> read_frame(const std::filesystem::path& file) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  if (reader->GetErrorCode() != vtkErrorCode::NoError) {
-    throw RunError(
-        fmt::format("{}: could not be read ({})", file.string(), vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode())));
+  try {
+    return open_vtu(file);
+  } catch (const std::runtime_error& error) {
+    throw RunError(fmt::format("{}: could not be read ({}). Run the scene again", file.string(), error.what()));
   }
-  return reader->GetOutput();
 }
 
 std::string array_names(vtkUnstructuredGrid& grid) {

@@ -15,7 +15,6 @@
 #include <vtkStaticCellLocator.h>
 
 #include "engine/output/open_vtu.h"
-#include "engine/output/series_index.h"
 #include "engine/output/vtk_room.h"
 
 namespace scree::output {
@@ -26,49 +25,12 @@ constexpr double rounding = 1e-9;   // of the mesh's extent: nodes this near to 
 constexpr double inwards = 1e-6;    // of a block's extent, see the header
 constexpr double almost_in = 1e-6;  // of a cell: a point that far outside lies in it, for rounding
 
-[[noreturn]] void refuse(const StoredField& stored, const std::string& value, const std::string& rule,
-                         const std::string& suggestion) {
-  Problem problem;
-  problem.where = stored.where;
-  problem.key = "heat.initial.from";
-  problem.value = value;
-  problem.rule = rule;
-  problem.suggestion = suggestion;
-  throw InputError(std::move(problem));
-}
-
-// The frame at the wanted time, or the last.
-std::filesystem::path frame_of(const StoredField& stored, const std::filesystem::path& index) {
-  const std::vector<SeriesEntry> entries = read_index(index);
-  if (entries.empty()) refuse(stored, index.string(), "must have a frame", "");
-  const SeriesEntry* chosen = &entries.back();
-  if (stored.time) {
-    const auto away = [&](const SeriesEntry& entry) { return std::abs(entry.time - *stored.time); };
-    chosen = &*std::min_element(entries.begin(), entries.end(),
-                                [&](const SeriesEntry& a, const SeriesEntry& b) { return away(a) < away(b); });
-    if (away(*chosen) > rounding * std::max(*stored.time, entries.back().time)) {
-      refuse(stored, index.string(),
-             fmt::format("has no frame at {:g} s; the nearest is at {:.10g} s", *stored.time, chosen->time),
-             "Name one of its times in heat.initial.time");
-    }
-  }
-  return index.parent_path() / chosen->file;
-}
-
-std::filesystem::path file_of(const StoredField& stored) {
-  if (std::filesystem::is_directory(stored.from)) return frame_of(stored, stored.from / "heat.pvd");
-  if (stored.from.extension() == ".pvd") return frame_of(stored, stored.from);
-  if (stored.time) refuse(stored, stored.from.string(), "is a single frame", "Leave heat.initial.time out");
-  return stored.from;
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> open(const StoredField& stored) {
+  const std::filesystem::path frame = stored_frame(stored);
   try {
-    return open_vtu(file_of(stored));
-  } catch (const InputError&) {
-    throw;
+    return open_vtu(frame);
   } catch (const std::runtime_error& error) {
-    refuse(stored, stored.from.string(), error.what(), "Name the output directory of a run with heat, a .pvd or a .vtu");
+    throw InputError(stored.problem(frame.string(), error.what(), "Run the earlier scene again"));
   }
 }
 
@@ -77,6 +39,13 @@ Eigen::Vector3d in_space(const Point<dim>& point) {
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   result.head<dim>() = point;
   return result;
+}
+
+// How far a point lies outside a cell, in the cell's own coordinates; 0 in it. Of a wedge VTK 9.1 looks at each coordinate by
+// itself, and so takes in the other half of the box around it.
+double outside(vtkGenericCell& cell, const std::array<double, 3>& parametric) {
+  const double of_axes = cell.GetRepresentativeCell()->GetParametricDistance(parametric.data());
+  return cell.GetCellType() == VTK_WEDGE ? std::max(of_axes, parametric[0] + parametric[1] - 1) : of_axes;
 }
 
 // Values of one grid, looked up node by node.
@@ -140,7 +109,7 @@ class Lookup {
       grid_.GetCell(near_->GetId(i), cell_);
       cell_->EvaluatePosition(const_cast<double*>(point.data()), closest.data(), part, parametric.data(), squared,
                               of_cell.data());
-      const double out = cell_->GetRepresentativeCell()->GetParametricDistance(parametric.data());
+      const double out = outside(*cell_, parametric);
       if (out > least || (best >= 0 && out == least)) continue;
       least = out;
       best = near_->GetId(i);
@@ -192,10 +161,11 @@ void interpolate(const StoredField& stored, Lookup& lookup, const mesh::BlockMes
   }
   if (outside == 0) return;
   const Eigen::Vector3d point = in_space<dim>(mesh.nodes[first]);
-  refuse(stored, stored.from.string(),
-         fmt::format("{} nodes lie outside its mesh and a reach of {:g} m, the first at ({:g}, {:g}, {:g}) m", outside,
-                     stored.reach, point.x(), point.y(), point.z()),
-         "Raise heat.initial.reach if that is meant");
+  throw InputError(
+      stored.problem(stored.from.string(),
+                     fmt::format("{} nodes lie outside its mesh and a reach of {:g} m, the first at ({:g}, {:g}, {:g}) m",
+                                 outside, stored.reach, point.x(), point.y(), point.z()),
+                     "Raise heat.initial.reach if that is meant"));
 }
 
 }  // namespace
@@ -207,7 +177,8 @@ NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& me
   const vtkSmartPointer<vtkUnstructuredGrid> grid = open(stored);
   vtkDataArray* values = grid->GetPointData()->GetArray("temperature");
   if (values == nullptr || values->GetNumberOfComponents() != 1) {
-    refuse(stored, stored.from.string(), "must have a point array temperature, in K", "Name a frame of a run with heat");
+    throw InputError(
+        stored.problem(stored.from.string(), "must have a point array temperature, in K", "Name a frame of a run with heat"));
   }
   const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
   NodalField field;
@@ -220,7 +191,7 @@ NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& me
     interpolate(stored, lookup, mesh, field);
   }
   if (!field.values.allFinite() || field.values.minCoeff() < 0) {
-    refuse(stored, stored.from.string(), "has temperatures that are no number or below 0 K", "");
+    throw InputError(stored.problem(stored.from.string(), "has temperatures that are no number or below 0 K", ""));
   }
   return field;
 }

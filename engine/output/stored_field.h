@@ -17,6 +17,9 @@ struct StoredField {
   std::optional<double> time;  // of a series [s]; nothing: its last
   double reach = 0;            // how far a node may lie outside the stored mesh [m]
   SourceLocation where = {};   // in the scene, for messages
+
+  // What is wrong with the file that it names.
+  [[nodiscard]] Problem problem(const std::string& value, const std::string& rule, const std::string& suggestion) const;
 };
 
 struct NodalField {
@@ -24,6 +27,9 @@ struct NodalField {
   bool same_mesh = false;  // every node had the place of the stored one of the same number: no interpolation
   std::size_t moved = 0;   // nodes that lie outside and have the value of the nearest point within reach
 };
+
+// The frame that is read. Throws InputError for a file or a time that is not there.
+std::filesystem::path stored_frame(const StoredField& stored);
 
 // The point array `temperature` at every node. On a mesh with other nodes a value is interpolated in the cell that holds the
 // node, drawn a millionth of its block's extent to the block's centre so that at a joint the block's own side is taken. Throws

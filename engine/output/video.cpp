@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/base/ignored_pipe_signal.h"
 
 namespace scree::output {
 
@@ -46,13 +46,17 @@ class Encoder {
     arguments.push_back(nullptr);
     process_ = ::fork();
     if (process_ == 0) {
+      // Where the program itself has no standard input the pipe may be it, and would be closed with the program's own files.
+      if (pipe[0] == STDIN_FILENO) ::fcntl(STDIN_FILENO, F_SETFD, 0);
       ::dup2(pipe[0], STDIN_FILENO);
       ::execvp(arguments[0], arguments.data());
       ::_exit(errno == ENOENT ? not_installed : 1);
     }
     ::close(pipe[0]);
     input_ = pipe[1];
-    if (process_ < 0) throw RunError("ffmpeg could not be started");
+    if (process_ >= 0) return;
+    ::close(input_);
+    throw RunError("ffmpeg could not be started");
   }
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
@@ -86,18 +90,6 @@ class Encoder {
   int input_ = -1;
 };
 
-// While it lives a closed pipe is an error of `write`, not the end of the program.
-class IgnoredPipeSignal {
- public:
-  IgnoredPipeSignal() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
-  IgnoredPipeSignal(const IgnoredPipeSignal&) = delete;
-  IgnoredPipeSignal& operator=(const IgnoredPipeSignal&) = delete;
-  ~IgnoredPipeSignal() { std::signal(SIGPIPE, before_); }
-
- private:
-  void (*before_)(int);
-};
-
 struct Ended {};
 
 void encode(const std::filesystem::path& target, const std::string& container, const VideoFormat& format,
@@ -105,18 +97,19 @@ void encode(const std::filesystem::path& target, const std::string& container, c
   const IgnoredPipeSignal ignored;
   Encoder encoder(command(target, container, format));
   const std::size_t size = 3 * static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height);
+  bool ended_early = false;
   try {
     draw([&](const unsigned char* pixels) {
       if (!encoder.take(pixels, size)) throw Ended{};
     });
   } catch (const Ended&) {
-    // said below
+    ended_early = true;  // why is said below
   }
   const int status = encoder.finish();
   if (status == not_installed) {
     throw RunError("animations need ffmpeg, which is not installed. Run tools/setup, or apt-get install ffmpeg");
   }
-  if (status != 0)
+  if (status != 0 || ended_early)
     throw RunError(fmt::format("{}: ffmpeg failed with status {}; its words stand above", target.string(), status));
 }
 

@@ -80,10 +80,10 @@ TEST(Curve, TheSlopeOfAFormulaIsItsDerivativeWhereItIsSmooth) {
 TEST(Curve, TheIntegralOfAFormulaMatchesItsAntiderivative) {
   const Curve cubic = formula("2 + 1e-3*T + 4e-9*T^3");
   for (const double T : {0.0, 0.3, 273.15, 1234.5, 5000.0, 6100.0}) {
-    EXPECT_NEAR(cubic.integral(T), 2 * T + 0.5e-3 * T * T + 1e-9 * std::pow(T, 4), 1e-11 * (1 + cubic.integral(T))) << T;
+    EXPECT_NEAR(cubic.integral(T) - cubic.integral(0), 2 * T + 0.5e-3 * T * T + 1e-9 * std::pow(T, 4), 1e-10 * (1 + T)) << T;
   }
   const Curve wave = formula("3 + sin(T/20) + exp(-T/100)");
-  EXPECT_NEAR(wave.integral(431.7), midpoint_integral(wave, 431.7), 1e-5);
+  EXPECT_NEAR(wave.integral(431.7) - wave.integral(0), midpoint_integral(wave, 431.7), 1e-5);
 }
 
 TEST(Curve, TheIntegralOfAFormulaThatJumpsIsExactAndNeverFalls) {
@@ -91,13 +91,29 @@ TEST(Curve, TheIntegralOfAFormulaThatJumpsIsExactAndNeverFalls) {
   double before = 0;
   for (int i = 0; i <= 2000; ++i) {
     const double T = 298.5 + i * 1e-3;
-    const double integral = jump.integral(T);
+    const double integral = jump.integral(T) - jump.integral(0);
     EXPECT_NEAR(integral, 2 * T + 40 * std::max(0.0, T - 299.3), 1e-9) << T;
     EXPECT_GT(integral, before) << T;
     before = integral;
   }
   const Curve kink = formula("1 + abs(T - 400.7)");
-  EXPECT_NEAR(kink.integral(402), 402 + 0.5 * (400.7 * 400.7 + 1.3 * 1.3), 1e-7);
+  EXPECT_NEAR(kink.integral(402) - kink.integral(0), 402 + 0.5 * (400.7 * 400.7 + 1.3 * 1.3), 1e-7);
+}
+
+TEST(Curve, DifferencesAreExactOfAFormulaThatGrowsBeyondAllBoundsTowardsZeroKelvin) {
+  const Curve curve = formula("100*(300/T)^2");
+  for (const double T : {301.0, 487.5, 1300.0, 4999.5})
+    EXPECT_NEAR(curve.integral(T) - curve.integral(300), 9e6 * (1.0 / 300 - 1 / T), 1e-9) << T;
+  EXPECT_NEAR(curve.integral(300) - curve.integral(20), 9e6 * (1.0 / 20 - 1.0 / 300), 1e-6);
+}
+
+TEST(Curve, TheIntegralOfAFormulaReachesAsFarAsItHasValues) {
+  const Curve curve = formula("sqrt(T - 100.3) + 0*sqrt(1500 - T)");
+  const auto antiderivative = [](double at) { return 2.0 / 3 * std::pow(at - 100.3, 1.5); };
+  for (const double from : {101.0, 200.0, 900.5})
+    EXPECT_NEAR(curve.integral(1400) - curve.integral(from), antiderivative(1400) - antiderivative(from), 1e-8) << from;
+  EXPECT_THROW((void)curve.integral(50), InputError);
+  EXPECT_THROW((void)curve.integral(2000), InputError);
 }
 
 TEST(Curve, AFormulaThatBreaksItsRuleNamesTheTemperature) {

@@ -110,6 +110,7 @@ TEST(Override, WrongOnesAreRefused) {
   EXPECT_EQ(message("=3"), "--set =3: =3 is not understood (must be key.path=value)");
   EXPECT_EQ(message("a..b=3"), "--set a..b=3: a..b=3 is not understood (must be key.path=value)");
   EXPECT_EQ(message("a.b="), "--set a.b: a.b is empty (null takes a key away)");
+  EXPECT_EQ(message("a.b=#none"), "--set a.b: a.b is #none (null takes a key away)");
   EXPECT_EQ(message("a.b.c=1"), "--set a.b.c: a.b.c is not there (c would be inside 1)");
   EXPECT_EQ(message("a.c[1]=1"), "--set a.c[1]: a.c[1] is not there (1 is no item of a list of 1, counted from 0)");
   EXPECT_EQ(message("a.c.x=1"), "--set a.c.x: a.c.x is not there (x is no item of a list of 1, counted from 0)");

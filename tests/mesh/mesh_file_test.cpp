@@ -128,6 +128,17 @@ TEST_F(MeshFiles, AScriptInPlaceOfAMeshIsNotRun) {
             "(must be a whole .msh mesh; it cannot be read: it does not begin with $MeshFormat). Export it again");
 }
 
+// Gmsh takes STL for a script where its name ends in neither small nor large letters, and reads FILE.opt as one.
+TEST_F(MeshFiles, NorAScriptBesideAMeshOrUnderAnotherSpellingOfItsName) {
+  const auto run = directory_ / "ran";
+  const std::string script = "SystemCall \"touch " + run.string() + "\";";
+  EXPECT_THAT(refusal("script.Stl", script), StartsWith("(it holds no elements"));
+  std::ofstream(directory_ / "tet.msh.opt") << script;
+  const FileCell line{Kind::line, {1, 2}};
+  EXPECT_EQ(make_blocks<3>({body_with("tet.msh", msh_text(corners, {line, one_tetrahedron}))}).elements.size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(run));
+}
+
 TEST_F(MeshFiles, ADamagedFileIsRefusedWhereverItEnds) {
   write_box(directory_ / "box.msh", true);
   std::ostringstream whole;

@@ -140,6 +140,46 @@ TEST(StoredField, OfTetrahedraStaysOnItsSideOfAJointInAnyOrderOfTheBodies) {
   }
 }
 
+// A cube of two wedges, and each of its halves as hot as its own corners say.
+TEST(StoredField, OfWedgesIsThatOfTheOneAroundTheNode) {
+  mesh::BlockMesh<3> stored;
+  const BodyId body = stored.bodies.push_back({"cube", MaterialId{0}, false, {}});
+  for (const double z : {0.0, 1.0}) {
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}) stored.nodes.push_back({x, y, z});
+  }
+  // Their diagonal lies where 2 (x - y) bends.
+  const std::array<std::array<std::size_t, 6>, 2> wedges{{{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}}};
+  const std::size_t first = stored.elements.size();
+  for (const auto& corners : wedges) {
+    mesh::Cell cell{mesh::CellKind::wedge, {}};
+    for (std::size_t i = 0; i < 6; ++i) cell.nodes[i] = NodeId{corners[i]};
+    stored.cells.push_back(cell);
+    const auto node = [&](int i) { return cell.nodes[static_cast<std::size_t>(i)]; };
+    stored.elements.push_back({node(0), node(1), node(2), node(3)});
+    stored.elements.push_back({node(1), node(2), node(3), node(4)});
+    stored.elements.push_back({node(2), node(3), node(4), node(5)});
+  }
+  stored.blocks.push_back({body, {0, stored.nodes.size()}, {first, stored.elements.size()}, {0, 2}});
+  const auto value = [](const Point<3>& at) { return 400 + 2 * std::abs(at.x() - at.y()) + at.z(); };
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  Series series(folder(), "heat");
+  std::vector<double> values;
+  for (const NodeId node : stored.nodes.ids()) values.push_back(value(stored.nodes[node]));
+  series.write(make_grid(stored), {0, {{"temperature", 1, values}}, {}});
+  for (const auto& [x, y] : {std::pair{0.7, 0.2}, {0.2, 0.7}, {0.9, 0.8}, {0.1, 0.4}}) {
+    mesh::BlockMesh<3> one;
+    one.bodies.push_back({"point", MaterialId{0}, false, {}});
+    const Point<3> at(x, y, 0.5);
+    for (const double step : {0.0, 1e-7}) one.nodes.push_back(at + Point<3>(step, 0, 0));
+    one.nodes.push_back(at + Point<3>(0, 1e-7, 0));
+    one.nodes.push_back(at + Point<3>(0, 0, 1e-7));
+    one.elements.push_back({NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}});
+    one.blocks.push_back({BodyId{0}, {0, 4}, {0, 1}});
+    EXPECT_NEAR(read_stored({folder(), {}}, one).values[0], value(at), 1e-5) << x << ' ' << y;
+  }
+}
+
 TEST(StoredField, ANodeOutsideNeedsAReach) {
   store(two_squares(3));
   auto mesh = two_squares(4);

@@ -235,6 +235,21 @@ class Heatings(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "must be a number"):
             heating.advance_to(math.inf)
 
+    def test_threads_take_turns_with_one_heating(self):
+        scene = scree.Scene.from_text(STONES)
+        packing = scree.settle(scene)
+        alone, shared = scree.Heating(scene, packing), scree.Heating(scene, packing)
+        alone.advance_to(3600)
+        seen = []
+        reader = threading.Thread(target=lambda: seen.extend(shared.temperature.copy() for _ in range(50)))
+        worker = threading.Thread(target=lambda: shared.advance_to(3600))
+        for thread in (worker, reader):
+            thread.start()
+        for thread in (worker, reader):
+            thread.join()
+        self.assertEqual(len(seen), 50)
+        self.assertTrue((shared.temperature == alone.temperature).all())
+
     def test_heat_that_crosses_contacts_is_the_heat_the_stones_take_up(self):
         scene = scree.Scene.from_text(STONES, {"heat.tolerance": "1 mK"})
         packing = scree.settle(scene)

@@ -203,6 +203,30 @@ TEST(LumpedBlocks, KnowTheirErrorWhereHeatComesInAtOneEndAndLeavesAtTheOther) {
   EXPECT_LT(stated, 4 * real);
 }
 
+// From 50,000 rows on a neighbour's rows do not follow each other (row_order.h).
+TEST(LumpedBlocks, KnowTheSameErrorHoweverRowsAreNumbered) {
+  const auto stated = [](int cells) {
+    const test::Slab<2> low{{0, 0}, {3, 0.4}, {cells, 40}}, middle{{1, 0.4}, {1, 0.6}, {40, 24}},
+        high{{0, 1}, {3, 0.4}, {cells, 40}};
+    const auto mesh = test::slab_mesh<2>({low, middle, high});
+    HeatOptions options = test::options_for(mesh, 300);
+    for (const auto& [body, y, temperature] : {std::tuple{0, 0.0, 400.0}, {2, 1.4, 300.0}}) {
+      Boundary held = test::hold(BodyId{static_cast<std::size_t>(body)}, 0, temperature, "held");
+      held.region.within = Aabb<3>{Eigen::Vector3d(-1, y, -1), Eigen::Vector3d(4, y, 1)};
+      options.boundaries.push_back(held);
+    }
+    options.joint.law = JointConductance{20};
+    options.blocks.of_body[BodyId{1}] = BlockModel::lumped;
+    const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+    const HeatModel model = make_heat_model(mesh, test::rock_only(), contacts, options);
+    return std::pair{model.capacity.size(), find_steady_state(model, LinearSolver::automatic).state.lumping.largest};
+  };
+  const auto few = stated(590), many = stated(630);
+  EXPECT_LT(few.first, 50000);
+  EXPECT_GT(many.first, 50000);
+  EXPECT_NEAR(many.second / few.second, 1, 0.01);
+}
+
 TEST(LumpedBlocks, KnowTheirErrorWhereConvectionBeginsLater) {
   auto row = row_of_cubes<2>(1, 4);
   const auto unit = std::get<UnitConverter>(unit_converter("W/m2/K", quantity::heat_transfer));

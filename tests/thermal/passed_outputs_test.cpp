@@ -8,6 +8,7 @@
 
 #include "tests/temp_folder.h"
 #include "tests/thermal/builders.h"
+#include "tests/verification/formula.h"
 #include "thermal/heat_run.h"
 
 namespace scree::thermal {
@@ -115,6 +116,30 @@ TEST_P(PassedOutputs, ARunThatGoesOnFromAStateRepeatsThemToTheBit) {
       ASSERT_EQ(rest.temperatures[i], followed.temperatures[before + i]) << state.time << ' ' << rest.times[i];
     }
   }
+}
+
+// Looked for over the longer time that outputs need to be smooth, the pulse lies between two looks; over the step's, it does
+// not.
+TEST(Outputs, BesideAPulseThatOnlyOneOfTwoLooksSeesAreWithinTheTolerance) {
+  const auto mesh = test::slab_mesh<2>({bar<2>(1, 20, 2, 0.1)});
+  const auto temperatures = [&](double tolerance) {
+    HeatOptions options = test::options_for(mesh, 293.15);
+    options.boundaries.push_back(test::hold(BodyId{0}, 0, 373.15, "hot"));
+    Boundary pulse;
+    pulse.region = test::on(BodyId{0}, test::between_x(1, 1));
+    pulse.condition = HeatFlux{test::formula("(t > 83048 && t < 83052) ? 1000 : 0")};
+    pulse.name = "pulse";
+    options.boundaries.push_back(pulse);
+    TimeOptions time;
+    time.until = 200000;
+    time.output_every = 100;
+    time.tolerance = tolerance;
+    HeatRun run(make_heat_model(mesh, test::rock_only(), {}, options), time);
+    return follow(run).temperatures;
+  };
+  const auto coarse = temperatures(0.5), fine = temperatures(0.01);
+  ASSERT_EQ(coarse.size(), fine.size());
+  for (std::size_t i = 0; i < coarse.size(); ++i) EXPECT_LT((coarse[i] - fine[i]).lpNorm<Eigen::Infinity>(), 0.5) << i;
 }
 
 TEST(Outputs, AreAllToldOnceAndInOrderWhateverTheInterval) {

@@ -2,12 +2,14 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "contact/find_contacts.h"
 #include "engine/mesh/cells.h"
 #include "engine/mesh/make_blocks.h"
 #include "tests/thermal/builders.h"
+#include "tests/verification/formula.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_run.h"
 
@@ -92,6 +94,33 @@ TEST(FourthOrder, TheErrorOfADecayingWaveInBricksFallsWithTheFourthPowerOfTheMes
 
 TEST(FourthOrder, SoItDoesWhereTheConductivityDiffersAlongTheAxes) {
   expect_fourth_order<3>({3.1, 1.2, 0.4});
+}
+
+// The box insulated, with sources of the same cosines until they are worth 1 - 1/e of what they come to.
+double source_error(int cells) {
+  const auto mesh = bricks<2>(cells);
+  const double x = M_PI, y = 2 * M_PI / 0.8, rate = 3.1 * (x * x + y * y) / capacity;
+  HeatOptions options = fourth(test::options_for(mesh, 300));
+  Source source;
+  source.region = test::on(BodyId{0});
+  source.power = test::formula(fmt::format("{:.17g}*cos({:.17g}*x)*cos({:.17g}*y)", 100 * rate * capacity, x, y));
+  source.name = "source";
+  options.sources.push_back(source);
+  HeatRun run(make_heat_model(mesh, rock({3.1, 3.1, 3.1}), {}, options), until(1 / rate, 1e-4));
+  run.advance_to(1 / rate, {});
+  double worst = 0;
+  for (const NodeId node : mesh.nodes.ids()) {
+    const Point<2>& at = mesh.nodes[node];
+    const double exact = 300 + 100 * (1 - std::exp(-1.0)) * std::cos(x * at.x()) * std::cos(y * at.y());
+    worst = std::max(worst, std::abs(run.state().temperature[node.value()] - exact));
+  }
+  EXPECT_LT(run.state().ledger.relative_residual(), 1e-10);
+  return worst;
+}
+
+TEST(FourthOrder, SoDoesTheErrorOfASourceThatVariesInPlace) {
+  const double coarse = source_error(8), fine = source_error(16);
+  EXPECT_NEAR(std::log2(coarse / fine), 4, 0.3) << coarse << " and " << fine;
 }
 
 // The whole space from x = 0 on, heated there by 75 K from t = 0, as far as the box reaches in this time.

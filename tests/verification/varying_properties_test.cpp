@@ -43,6 +43,26 @@ TEST(VaryingProperties, ASteadyBarFollowsKirchhoffsTransformToRounding) {
   for (const Point<3>& q : flux) EXPECT_LT((q - Point<3>(phi(900) - phi(300), 0, 0)).norm(), 1e-7);
 }
 
+// k = 100 (300/T)^2 W/m/K, which is infinite at 0 K: 1/T is linear.
+TEST(VaryingProperties, ASteadyConductivityThatGrowsBeyondAllBoundsTowardsZeroKelvinIsExact) {
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(1, 6, 2, 0.3)});
+  HeatOptions options = test::options_for(mesh, 800);
+  // No iteration may stray below 0 K from here.
+  options.initial_field.emplace(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const NodeId node : mesh.nodes.ids()) (*options.initial_field)[node.value()] = 1300 - 1000 * mesh.nodes[node].x();
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 1300, "hot"));
+  options.boundaries.push_back(test::hold(BodyId{0}, 1, 300, "cold"));
+  Material rock = test::rock();
+  rock.conductivity = test::curve("100*(300/T)^2");
+  const HeatModel model = make_heat_model(mesh, Table<MaterialId, Material>({rock}), {}, options);
+  const HeatState steady = steady_state(model);
+  for (const NodeId node : mesh.nodes.ids()) {
+    const double x = mesh.nodes[node].x();
+    EXPECT_NEAR(steady.temperature[node.value()], 1 / ((1 - x) / 1300 + x / 300), 1e-6);
+  }
+  EXPECT_NEAR(steady.ledger.by_boundary.at(0), 0.09 * 9e6 * (1.0 / 300 - 1.0 / 1300), 1e-5);
+}
+
 auto four_in_a_row(const test::Slab<3>& bar) {
   std::vector<test::Slab<3>> bars(4, bar);
   for (int i = 0; i < 4; ++i) bars[static_cast<std::size_t>(i)].low[0] = bar.size[0] * i;

@@ -31,9 +31,9 @@ std::string names_of_options(const CommandRow& command) {
 std::string bash_values(const OptionRow& option) {
   switch (option.value) {
     case Value::file:
-      return R"(COMPREPLY=($(compgen -f -- "$word")))";
+      return R"(mapfile -t COMPREPLY < <(compgen -f -- "$word"))";
     case Value::directory:
-      return R"(COMPREPLY=($(compgen -d -- "$word")))";
+      return R"(mapfile -t COMPREPLY < <(compgen -d -- "$word"))";
     case Value::choice:
       return fmt::format(R"(COMPREPLY=($(compgen -W "{}" -- "$word")))", joined(option.choices));
     case Value::free_text:

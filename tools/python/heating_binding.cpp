@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <map>
+#include <mutex>
 
 #include "tools/library/heating.h"
 #include "tools/python/bindings.h"
@@ -22,11 +23,31 @@ struct AnyHeating {
   std::variant<Two, Three> heating;
   // The temperatures of now in memory of their own: what time goes on with must not change under an array that somebody keeps.
   std::optional<py::array> now{};
+  // Held by the thread that uses it; by one that computes, in its signal handlers, too.
+  std::unique_ptr<std::recursive_mutex> in_use = std::make_unique<std::recursive_mutex>();
 
   template <class Use>
   decltype(auto) use(const Use& work) const {
     return std::visit([&](const auto& one) -> decltype(auto) { return work(*one); }, heating);
   }
+};
+
+// Whoever waits for its turn lets others run.
+[[nodiscard]] std::unique_lock<std::recursive_mutex> turn(const AnyHeating& self) {
+  const py::gil_scoped_release others_may_run;
+  return std::unique_lock(*self.in_use);
+}
+
+// What was read before or meanwhile is of another time.
+class Forgotten {
+ public:
+  explicit Forgotten(AnyHeating& heating) : heating_(heating) { heating_.now.reset(); }
+  Forgotten(const Forgotten&) = delete;
+  Forgotten& operator=(const Forgotten&) = delete;
+  ~Forgotten() { heating_.now.reset(); }
+
+ private:
+  AnyHeating& heating_;
 };
 
 // A pile that was settled here is of its scene alone, as the packing in a run's folder; one from a file is whoever's names it.
@@ -57,16 +78,20 @@ std::unique_ptr<AnyHeating> heat(const SceneSource& source, const AnyPacking& pa
 
 void advance(AnyHeating& self, double time) {
   if (!std::isfinite(time)) throw py::value_error("the time must be a number");
-  self.now.reset();
+  const auto alone = turn(self);
+  const Forgotten before(self);
   const py::gil_scoped_release others_may_run;
   self.use([&](auto& heating) { heating.advance_to(time, [](double) { check_signals(); }); });
 }
 
-const thermal::HeatState& state(const AnyHeating& self) {
-  return self.use([](const auto& heating) -> const thermal::HeatState& { return heating.state(); });
+template <class Read>
+auto state(const AnyHeating& self, const Read& read) {
+  const auto alone = turn(self);
+  return self.use([&](const auto& heating) { return read(heating.state()); });
 }
 
 py::array temperature(AnyHeating& self) {
+  const auto alone = turn(self);
   if (!self.now) {
     self.now = own(self.use([](const auto& heating) { return heating.pile().places.in_packing(heating.temperature()); }));
   }
@@ -74,6 +99,7 @@ py::array temperature(AnyHeating& self) {
 }
 
 std::map<std::string, double> probes(const AnyHeating& self) {
+  const auto alone = turn(self);
   return self.use([](const auto& heating) {
     std::map<std::string, double> values;
     for (const auto& probe : heating.pile().probes) values[probe.name] = heating.probe(probe.name);
@@ -83,8 +109,9 @@ std::map<std::string, double> probes(const AnyHeating& self) {
 
 // The scene's output times that are still to come, and the probes at them.
 py::dict follow(AnyHeating& self) {
-  self.now.reset();
-  std::vector<double> times{state(self).time};
+  const auto alone = turn(self);
+  const Forgotten before(self);
+  std::vector<double> times{state(self, [](const auto& now) { return now.time; })};
   std::map<std::string, std::vector<double>> values;
   for (const auto& [name, value] : probes(self)) values[name].push_back(value);
   self.use([&](auto& heating) {
@@ -157,7 +184,8 @@ void bind_heating(py::module_& module) {
       .def("follow", &follow,
            "Goes on to the scene's end; gives the probes at its output times, as a dict of arrays with 'time' [s].")
       .def_property_readonly(
-          "time", [](const AnyHeating& self) { return state(self).time; }, "How far it is [s].")
+          "time", [](const AnyHeating& self) { return state(self, [](const auto& now) { return now.time; }); },
+          "How far it is [s].")
       .def_property_readonly(
           "temperature", &temperature,
           "Of every node of the packing now [K], NaN in blocks that left the scene; stays as it is when time goes on.")
@@ -168,18 +196,24 @@ void bind_heating(py::module_& module) {
           "look into the heating's memory; owner and target (blocks of the packing) and point [m], copies.")
       .def_property_readonly(
           "contact_flows",
-          [](const AnyHeating& self) { return own(self.use([](const auto& heating) { return heating.contact_flows(); })); },
+          [](const AnyHeating& self) {
+            const auto alone = turn(self);
+            return own(self.use([](const auto& heating) { return heating.contact_flows(); }));
+          },
           "Heat flow from owner to target of every contact now [W].")
       .def_property_readonly(
-          "time_error", [](const AnyHeating& self) { return state(self).time_error; }, "Estimate of the time error so far [K].")
+          "time_error", [](const AnyHeating& self) { return state(self, [](const auto& now) { return now.time_error; }); },
+          "Estimate of the time error so far [K].")
       .def_property_readonly(
-          "lumping_error", [](const AnyHeating& self) { return state(self).lumping.largest; },
+          "lumping_error",
+          [](const AnyHeating& self) { return state(self, [](const auto& now) { return now.lumping.largest; }); },
           "Estimate of what lumping blocks has changed so far [K]; 0 if none is lumped.")
       .def_property_readonly(
-          "ledger_residual", [](const AnyHeating& self) { return state(self).ledger.relative_residual(); },
+          "ledger_residual",
+          [](const AnyHeating& self) { return state(self, [](const auto& now) { return now.ledger.relative_residual(); }); },
           "Heat that is missing in the balance, over the heat that flowed.")
       .def_property_readonly(
-          "heat_stored", [](const AnyHeating& self) { return state(self).ledger.stored; },
+          "heat_stored", [](const AnyHeating& self) { return state(self, [](const auto& now) { return now.ledger.stored; }); },
           "Heat that the blocks hold more than at the start [J].");
 }
 

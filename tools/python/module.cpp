@@ -54,7 +54,8 @@ PYBIND11_MODULE(scree, module) {
         if (count < 1 || count > 1024) throw py::value_error("the number of threads must be 1 to 1024");
         scree::use_threads(count);
       },
-      py::arg("count"), "Computes with so many threads from here on. No result depends on it.");
+      py::arg("count"),
+      "What this thread of Python calls from here on computes with so many threads. No result depends on it.");
   scree::python::bind_errors(module);
   scree::python::bind_scene(module);
   scree::python::bind_packing(module);

@@ -36,6 +36,7 @@ py::object settle(const SceneSource& source) {
 
 AnyPacking load(const py::object& path, int dimension) {
   const std::string file = file_name(path);
+  if (dimension != 2 && dimension != 3) throw py::value_error("the dimension must be 2 or 3");
   if (dimension == 2) return with_places(packing::read<2>(file));
   return with_places(packing::read<3>(file));
 }

@@ -25,15 +25,15 @@ class KeptHandler {
 py::object run(const SceneSource& source, const py::object& out, bool error_estimate) {
   const run::RunFiles files{file_name(out)};
   {
-    const KeptHandler keeps_ctrl_c(SIGINT);
-    const KeptHandler keeps_termination(SIGTERM);
     const py::gil_scoped_release others_may_run;
     const auto lock = alone();
+    const KeptHandler keeps_ctrl_c(SIGINT);
+    const KeptHandler keeps_termination(SIGTERM);
     Progress progress(ProgressMode::quiet);
     run::run_scene(source.scene, files, run::Start::fresh, progress,
                    error_estimate ? run::SpaceErrors::estimated : run::SpaceErrors::left_out);
   }
-  const py::object text = py::module_::import("pathlib").attr("Path")(files.summary().string()).attr("read_text")();
+  const py::object text = py::module_::import("pathlib").attr("Path")(files.summary().string()).attr("read_text")("utf-8");
   py::object summary = py::module_::import("json").attr("loads")(text);
   if (summary["status"].cast<std::string>() == "interrupted") {
     PyErr_SetNone(PyExc_KeyboardInterrupt);

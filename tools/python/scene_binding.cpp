@@ -66,7 +66,9 @@ std::string absolute_name(const py::object& path) {
 }  // namespace
 
 std::string file_name(const py::object& path) {
-  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+  auto name = py::module_::import("os").attr("fspath")(path).cast<std::string>();
+  if (name.empty()) throw py::value_error("a name of a file or folder must not be empty");
+  return name;
 }
 
 void bind_scene(py::module_& module) {
@@ -80,7 +82,8 @@ void bind_scene(py::module_& module) {
       .def_static(
           "from_text",
           [](const std::string& text, const py::object& changes, const py::object& folder) {
-            return read({absolute_name(folder), text, overrides_of(changes), {}});
+            // An empty text would stand for a file.
+            return read({absolute_name(folder), text.empty() ? "\n" : text, overrides_of(changes), {}});
           },
           py::arg("text"), py::arg("changes") = py::dict(), py::arg("folder") = ".",
           "A scene from its YAML text; paths in it are relative to the folder.")

@@ -1,12 +1,12 @@
 #include "tools/report/pictures.h"
 
-#include <cstdlib>
 #include <functional>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/scratch_folder.h"
 #include "engine/output/render.h"
 #include "engine/packing/packing.h"
 #include "tools/report/page.h"
@@ -14,26 +14,6 @@
 namespace scree::report {
 
 namespace {
-
-// A folder for the pictures until they are in the page.
-class Workshop {
- public:
-  Workshop() {
-    std::string name = (std::filesystem::temp_directory_path() / "scree-report-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw RunError(fmt::format("{}: cannot be created", name));
-    path_ = name;
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-  ~Workshop() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Middle of the free blocks along y, or of all if none is free; nothing in 2-D.
 std::optional<double> middle(const run::RunFiles& files) {
@@ -73,16 +53,16 @@ output::Picture picture_of(const run::RunFiles& files, const std::string& series
   return picture;
 }
 
-Drawn still(const Workshop& workshop, const output::Picture& picture, const std::string& caption) {
-  const auto png = workshop.file("picture.png");
+Drawn still(const ScratchFolder& workshop, const output::Picture& picture, const std::string& caption) {
+  const auto png = workshop.path() / "picture.png";
   output::render(picture, png);
   return {fmt::format(R"(<img alt="{}" src="{}">)", escaped(caption), data_url(png, "image/png")), caption};
 }
 
-Drawn moving(const Workshop& workshop, output::Picture picture, const std::string& caption) {
+Drawn moving(const ScratchFolder& workshop, output::Picture picture, const std::string& caption) {
   picture.width = 840;
   picture.height = 490;
-  const auto webm = workshop.file("animation.webm");
+  const auto webm = workshop.path() / "animation.webm";
   output::animate(picture, {}, webm);
   return {fmt::format("<video controls loop muted src=\"{}\"></video>", data_url(webm, "video/webm")), caption};
 }
@@ -90,7 +70,7 @@ Drawn moving(const Workshop& workshop, output::Picture picture, const std::strin
 }  // namespace
 
 std::vector<Drawn> draw_pictures(const run::RunFiles& files, const Wanted& wanted) {
-  const Workshop workshop;
+  const ScratchFolder workshop;
   const auto there = [&](const std::string& series) { return std::filesystem::exists(files.directory / (series + ".pvd")); };
   std::vector<Drawn> drawn;
   if (there("settle")) {

@@ -7,6 +7,7 @@
 #include "engine/base/atomic_file.h"
 #include "tools/report/run_report.h"
 #include "tools/report/study_report.h"
+#include "tools/run/output_place.h"
 
 namespace scree::report {
 
@@ -24,6 +25,7 @@ int report_command(const ReportArguments& arguments) {
                             : arguments.animations     ? Pictures::animated
                                                        : Pictures::still;
   const std::filesystem::path page = arguments.page.empty() ? directory / "report.html" : std::filesystem::path(arguments.page);
+  run::check_output_place("--page", page, {".html", ".htm"});
   write_text(page, study ? study_page(directory) : run_page({directory}, pictures));
   fmt::print("{}\n", page.string());
   return 0;

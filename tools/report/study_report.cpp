@@ -1,9 +1,9 @@
 #include "tools/report/study_report.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/csv.h"
+#include "engine/base/plain_number.h"
 #include "tools/report/chart.h"
 #include "tools/report/page.h"
 
@@ -23,37 +25,8 @@ constexpr std::size_t most_charts = 8;
 
 using Row = std::vector<std::string>;
 
-// RFC 4180: a cell in quotes may hold commas, line ends, and quotes that are doubled.
-std::vector<Row> parse_csv(std::istream& in) {
-  std::vector<Row> rows;
-  Row row;
-  std::string cell;
-  bool quoted = false;
-  const auto end_row = [&] {
-    row.push_back(std::exchange(cell, ""));
-    rows.push_back(std::exchange(row, {}));
-  };
-  for (char c = 0; in.get(c);) {
-    if (quoted && c == '"' && in.peek() == '"') {
-      cell += static_cast<char>(in.get());
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (!quoted && c == ',') {
-      row.push_back(std::exchange(cell, ""));
-    } else if (!quoted && c == '\n') {
-      end_row();
-    } else if (quoted || c != '\r') {
-      cell += c;
-    }
-  }
-  if (!cell.empty() || !row.empty()) end_row();
-  return rows;
-}
-
 double value_of(const std::string& cell) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size() && !cell.empty() ? value : std::nan("");
+  return plain_number(cell).value_or(std::nan(""));
 }
 
 std::vector<double> column(const std::vector<Row>& rows, std::size_t number) {
@@ -63,10 +36,22 @@ std::vector<double> column(const std::vector<Row>& rows, std::size_t number) {
   return values;
 }
 
+// A figure of a run that is not complete is no measurement.
+std::vector<double> measured(const std::vector<Row>& rows, std::size_t number) {
+  const auto status = std::find(rows.front().begin(), rows.front().end(), "status");
+  std::vector<double> values = column(rows, number);
+  if (status == rows.front().end()) return values;
+  const auto at = static_cast<std::size_t>(status - rows.front().begin());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (at < rows[i + 1].size() && rows[i + 1][at] != "complete") values[i] = std::nan("");
+  }
+  return values;
+}
+
 bool varies(const std::vector<double>& values) {
-  return !values.empty() && std::isfinite(values.front()) && std::any_of(values.begin(), values.end(), [&](double value) {
-    return std::isfinite(value) && value != values.front();
-  });
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  const auto first = std::find_if(values.begin(), values.end(), is_finite);
+  return std::any_of(first, values.end(), [&](double value) { return is_finite(value) && value != *first; });
 }
 
 void add_table(Page& page, const std::string& heading, std::vector<Row> rows) {
@@ -124,7 +109,7 @@ std::optional<Axes> find_axes(const std::vector<Row>& rows) {
 
 std::vector<Curve> curves(const std::vector<Row>& rows, const Axes& axes, std::size_t number) {
   const auto x = column(rows, axes.against);
-  const auto y = column(rows, number);
+  const auto y = measured(rows, number);
   if (!axes.apart) return {{rows.front()[number], x, y}};
   const auto apart = column(rows, *axes.apart);
   std::map<double, Curve> found;
@@ -157,8 +142,8 @@ void add_charts(Page& page, const std::vector<Row>& rows) {
 }
 
 std::vector<Row> read_rows(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  auto rows = parse_csv(in);
+  std::ifstream in(file, std::ios::binary);
+  auto rows = csv_rows(std::string(std::istreambuf_iterator<char>(in), {}));
   if (!rows.empty()) return rows;
   Problem problem;
   problem.key = "table";

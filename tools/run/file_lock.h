@@ -14,6 +14,9 @@ class FileLock {
   // Nothing if somebody else holds it. Throws RunError if the file cannot be made.
   static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind, Heirs heirs);
 
+  // The same for this process alone, as soon as nobody else holds it.
+  static FileLock wait(const std::filesystem::path& file);
+
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();

@@ -8,6 +8,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/base/ignored_pipe_signal.h"
 
 namespace scree::run {
 
@@ -25,12 +26,13 @@ namespace {
 void draw(const std::string& commands) {
   constexpr int no_such_command = 127;  // of a shell
   const RunError not_started("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
+  const IgnoredPipeSignal ignored;
   std::FILE* gnuplot = popen("gnuplot", "w");
   if (gnuplot == nullptr) throw not_started;
-  std::fputs(commands.c_str(), gnuplot);
+  const bool taken = std::fputs(commands.c_str(), gnuplot) >= 0 && std::fflush(gnuplot) == 0;
   const int status = pclose(gnuplot);
   if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command) throw not_started;
-  if (status != 0) throw RunError(fmt::format("gnuplot failed with status {}; what it said stands above", status));
+  if (status != 0 || !taken) throw RunError(fmt::format("gnuplot failed with status {}; what it said stands above", status));
 }
 
 }  // namespace

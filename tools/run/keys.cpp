@@ -8,7 +8,6 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/version.h"
-#include "tools/run/run_files.h"
 
 namespace scree::run {
 
@@ -77,6 +76,14 @@ void add_tables(Hasher& hash, const Scene& scene) {
   for (const std::filesystem::path& table : scene.tables) add_content(hash, table);
 }
 
+void add_frame(Hasher& hash, const output::StoredField& stored) {
+  try {
+    add_content(hash, output::stored_frame(stored));
+  } catch (const InputError&) {
+    hash.add(false);  // the run will complain
+  }
+}
+
 void add_mesh_files(Hasher& hash, const Scene& scene) {
   for (const mesh::BodySpec& body : scene.bodies) {
     if (const auto* file = std::get_if<mesh::MeshFile>(&body.shape)) add_content(hash, file->path);
@@ -117,10 +124,7 @@ std::string run_key(const Scene& scene, bool space_errors) {
   add_tables(hash, scene);
   add_mesh_files(hash, scene);
   if (scene.packing) add_content(hash, *scene.packing);
-  if (scene.initial_field) {
-    const std::filesystem::path& from = scene.initial_field->from;
-    add_content(hash, std::filesystem::is_directory(from) ? RunFiles{from}.summary() : from);
-  }
+  if (scene.initial_field) add_frame(hash, *scene.initial_field);
   return hash.hex();
 }
 

@@ -85,6 +85,8 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
     context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
     return {packing::read<3>(context.files.packing()), true};
   }
+  std::error_code ignored;
+  std::filesystem::remove(context.files.packing(), ignored);  // of another scene
   begin_results(context);
   auto packing =
       context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });

@@ -22,20 +22,13 @@ thermal::MovingBodies moving_bodies(const Scene& scene) {
   return moving;
 }
 
-// Which temperatures its nodes will find there is known when they have come to rest.
-void check_is_there(const output::StoredField& stored) {
-  std::error_code ignored;
-  if (std::filesystem::exists(stored.from, ignored)) return;
-  throw InputError(thermal::problem("heat.initial.from", stored.from.string(), "must be there",
-                                    "Name the output directory of a run with heat, a .pvd or a .vtu"));
-}
-
 // The temperatures to start from, if they are those of an earlier run; any while blocks move.
 template <int dim>
 std::optional<Eigen::VectorXd> earlier_field(const Scene& scene, const mesh::BlockMesh<dim>& blocks, bool moving) {
   if (!scene.initial_field) return std::nullopt;
   if (!moving) return output::read_stored(*scene.initial_field, blocks).values;
-  check_is_there(*scene.initial_field);
+  // Which temperatures its nodes will find there is known when they have come to rest.
+  output::stored_frame(*scene.initial_field);
   return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blocks.nodes.size()));
 }
 

@@ -97,12 +97,25 @@ Ending run_to_an_end(RunContext& context, Claim& claim, Json& summary) {
   }
 }
 
+// The directory, for this run alone. What keeps the run out of it ends it, for whoever reads its events, too.
+Claim claim_directory(const Scene& scene, const RunFiles& files, Start start, Progress& progress) {
+  try {
+    if (start == Start::fresh) refuse_own_inputs(scene, files);
+    return Claim(files);
+  } catch (const InputError& error) {
+    progress.end({"bad_input", 2, "", {error.what()}});
+    throw;
+  } catch (const RunError& error) {
+    progress.end({"failed", 1, "", {error.what()}});
+    throw;
+  }
+}
+
 }  // namespace
 
 int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
   catch_interrupts();
-  if (start == Start::fresh) refuse_own_inputs(scene, files);
-  Claim claim(files);
+  Claim claim = claim_directory(scene, files, start, progress);
   say_models(scene, progress);
   const bool resume = start == Start::resume;
   RunContext context{scene, files, progress, resume,

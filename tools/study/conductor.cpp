@@ -36,7 +36,7 @@ void Conductor::make(const std::vector<PlannedRun>& runs) {
       collect();
       std::this_thread::sleep_for(pause);
     }
-  } catch (const run::Interrupted&) {
+  } catch (...) {
     stop_all();
     throw;
   }
@@ -148,8 +148,8 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
   write_outcome(files_, run.directory, end);
   const Outcome outcome = read_outcome(files_, run.directory);
   largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
-  // What ended a process from outside need not end the next one.
-  if (active.settling && outcome.status != "crashed") {
+  // What ended a process from outside need not end the next one, nor what is wrong with this run's own values.
+  if (active.settling && outcome.status != "crashed" && outcome.status != "bad_input") {
     failed_packings_[run.packing] =
         fmt::format("its packing is that of run {}, which has none: {}", run.number, outcome.reason);
   }

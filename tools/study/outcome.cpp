@@ -31,6 +31,11 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
+// What a run has said may be of any encoding, as names of files are.
+void write_json(const fs::path& file, const Json& json) {
+  write_text(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace
 
 bool Outcome::is_final() const {
@@ -73,12 +78,12 @@ void write_outcome(const StudyFiles& files, const std::string& run, const run::C
   json["reason"] = end.exit_status > 128 && end.exit_status != 130
                        ? fmt::format("ended by signal {}{}{}", end.exit_status - 128, said.empty() ? "" : ": ", said)
                        : said;
-  write_text(files.outcome(run), json.dump(2) + "\n");
+  write_json(files.outcome(run), json);
 }
 
 void write_refusal(const StudyFiles& files, const std::string& run, const std::string& reason) {
   fs::create_directories(files.run(run).directory);
-  write_text(files.outcome(run), Json{{"status", "failed"}, {"reason", reason}}.dump(2) + "\n");
+  write_json(files.outcome(run), {{"status", "failed"}, {"reason", reason}});
 }
 
 }  // namespace scree::study

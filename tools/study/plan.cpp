@@ -74,9 +74,9 @@ bool starts_with_part(const std::string& path, const std::string& part) {
 void check_reports(const Study& study, const Scene& scene, Complaints& complaints) {
   std::vector<std::string> probes;
   for (const auto& probe : scene.probes) probes.push_back(probe.name);
-  const std::vector<std::string> parts{"status", "version",  "title",   "blocks",    "elements",
-                                       "nodes",  "contacts", "settle",  "joints",    "effective_conductivity",
-                                       "heat",   "stages",   "reasons", "scene_hash"};
+  const std::vector<std::string> parts{"status", "version",  "title",     "blocks", "elements",
+                                       "nodes",  "contacts", "settle",    "joints", "effective_conductivity",
+                                       "heat",   "stages",   "scene_hash"};
   for (const Report& report : study.reports) {
     const std::string heat_probe = "heat.probes.";
     std::string probe = report.probe;

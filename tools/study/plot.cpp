@@ -10,6 +10,7 @@
 #include "engine/base/check.h"
 #include "engine/base/nearest.h"
 #include "tools/run/gnuplot.h"
+#include "tools/run/output_place.h"
 #include "tools/study/study_files.h"
 
 namespace scree::study {
@@ -127,11 +128,7 @@ int plot_command(const PlotArguments& arguments) {
   const std::filesystem::path picture = arguments.picture.empty()
                                             ? std::filesystem::path(arguments.directory) / (arguments.y + ".png")
                                             : std::filesystem::path(arguments.picture);
-  if (picture.extension() != ".png") refuse("--picture", picture.string(), "must end in .png", "");
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(std::filesystem::absolute(picture).parent_path(), ignored)) {
-    refuse("--picture", picture.string(), "must be in a folder that exists", "");
-  }
+  run::check_output_place("--picture", picture, {".png"});
   run::draw_by_gnuplot([&](const std::filesystem::path& output) { return commands_of(all, arguments, output); }, picture);
   fmt::print("{}\n", picture.string());
   return 0;

@@ -52,6 +52,12 @@ class Reader {
     return (fs::absolute(file_).parent_path() / path).lexically_normal();
   }
 
+  // What the scene is told: a file that a value names is relative to this one. A table may be a list.
+  [[nodiscard]] std::string told(const Key& key, const std::string& value) const {
+    const bool file = key.type == KeyType::path || (key.type == KeyType::table && !value.starts_with('['));
+    return file && value != "null" ? in_folder(value).string() : value;
+  }
+
   // The row of a scene's key that varies; refuses a path that is none.
   const Key* varied_key(const Checked& path) {
     if (!path.sound) return nullptr;
@@ -64,7 +70,6 @@ class Reader {
     return found->key;
   }
 
-  // A path in this file is relative to it.
   std::string assignment(const Checked& change) {
     const auto equals = change.text.find('=');
     const std::string path = change.text.substr(0, equals);
@@ -74,9 +79,7 @@ class Reader {
       return change.text;
     }
     set_.push_back({change.text, *found, change.where});
-    const std::string value = change.text.substr(equals + 1);
-    if (found->key->type != KeyType::path || value == "null") return change.text;
-    return fmt::format("{}={}", path, in_folder(value).string());
+    return fmt::format("{}={}", path, told(*found->key, change.text.substr(equals + 1)));
   }
 
   Factor factor(const Checked& varied) {
@@ -111,7 +114,7 @@ class Reader {
   Level level(const Checked& value, const Key* key) {
     Level level{value.text, std::nullopt, value.where};
     if (key == nullptr) return level;
-    if (key->type == KeyType::path) level.text = in_folder(value.text).string();
+    level.text = told(*key, value.text);
     if (key->type == KeyType::quantity || key->type == KeyType::integer) {
       const auto parsed = parse_quantity(value.text, key->quantity);
       if (const auto* number = std::get_if<double>(&parsed)) level.number = *number;
@@ -156,7 +159,7 @@ class Reader {
     if (key != nullptr && key->type != KeyType::integer) {
       refuse(ensemble.at("key"), "must be a key that takes integers, such as settle.seed or bodies.NAME.random.seed");
     }
-    const std::int64_t first = ensemble.at("first").integer();
+    const auto first = static_cast<std::int64_t>(ensemble.at("first").number());
     for (int i = 0; i < ensemble.at("members").integer(); ++i) {
       factor.levels.push_back({fmt::format("{}", first + i), static_cast<double>(first + i), ensemble.where});
     }

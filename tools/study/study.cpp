@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/plain_number.h"
+
 namespace scree::study {
 
 Level Interval::at(double fraction, const SourceLocation& where) const {
@@ -11,7 +13,7 @@ Level Interval::at(double fraction, const SourceLocation& where) const {
   if (whole) value = std::round(value);
   // As a person would write it: 10, where the power of a logarithm ends in 9.999999999999998.
   const std::string text = fmt::format("{:.12g}", value);
-  return {fmt::format("{}{}{}", text, unit.empty() ? "" : " ", unit), std::stod(text), where};
+  return {fmt::format("{}{}{}", text, unit.empty() ? "" : " ", unit), plain_number(text).value(), where};
 }
 
 std::vector<std::string> Study::varied() const {

@@ -1,7 +1,9 @@
 #include "tools/study/study_command.h"
 
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -29,7 +31,9 @@ std::optional<int> given(int option) {
   return option > 0 ? std::optional<int>(option) : std::nullopt;
 }
 
+// Several may gather at once: the jobs of an array, each at its end.
 Table write_tables(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
+  const run::FileLock lock = run::FileLock::wait(files.tables_lock());
   Table table = gather(study, runs, files);
   write_text(files.table(), to_csv(table));
   write_hdf5(table, files.table_hdf5());
@@ -116,7 +120,18 @@ int make_one(const Arguments& arguments, const Study& study, const std::vector<P
   return finish(ending, progress);
 }
 
-void write_script(const std::string& file, const std::string& script) {
+// Over a script that was written before, but nothing else.
+void write_script(const std::string& option, const std::string& file, const std::string& script) {
+  constexpr std::string_view beginning = "#!/bin/sh\n# Runs ";
+  std::string there(beginning.size(), '\0');
+  std::ifstream old(file, std::ios::binary);
+  if (old && (!old.read(there.data(), static_cast<std::streamsize>(there.size())) || there != beginning)) {
+    Problem problem;
+    problem.key = option;
+    problem.value = file;
+    problem.rule = "must not be a file that is there and is no such script";
+    throw InputError(problem);
+  }
   write_text(file, script);
   fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
 }
@@ -148,8 +163,8 @@ int dispatch(const Arguments& arguments, const Study& study, const std::vector<P
     return finish(conclude(study, runs, files), progress);
   }
   const Batch batch{arguments.study, files.directory, static_cast<int>(runs.size()), given(arguments.threads)};
-  if (!arguments.slurm.empty()) write_script(arguments.slurm, slurm_script(batch));
-  if (!arguments.parallel.empty()) write_script(arguments.parallel, parallel_script(batch));
+  if (!arguments.slurm.empty()) write_script("--slurm", arguments.slurm, slurm_script(batch));
+  if (!arguments.parallel.empty()) write_script("--parallel", arguments.parallel, parallel_script(batch));
   if (!arguments.slurm.empty() || !arguments.parallel.empty()) return 0;
   return arguments.task > 0 ? make_one(arguments, study, runs, files) : make_all(arguments, study, runs, files);
 }

@@ -18,6 +18,7 @@ struct StudyFiles {
   [[nodiscard]] std::filesystem::path packing_lock(const std::string& name) const {
     return directory / "packings" / (name + ".lock");
   }
+  [[nodiscard]] std::filesystem::path tables_lock() const { return directory / ".tables.lock"; }  // held while they are written
   [[nodiscard]] std::filesystem::path lock() const { return directory / "lock"; }
   [[nodiscard]] std::filesystem::path table() const { return directory / "table.csv"; }
   [[nodiscard]] std::filesystem::path table_hdf5() const { return directory / "table.h5"; }

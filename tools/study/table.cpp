@@ -7,25 +7,16 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/base/csv.h"
 #include "engine/packing/hdf5_image.h"
 
 namespace scree::study {
 
 namespace {
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  return text + '"';
-}
-
 std::string line(const Table& table, auto cell_of) {
   std::string text;
-  for (const Column& column : table.columns) text += quoted(cell_of(column)) + ',';
+  for (const Column& column : table.columns) text += csv_cell(cell_of(column)) + ',';
   text.back() = '\n';
   return text;
 }

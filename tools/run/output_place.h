@@ -1,0 +1,13 @@
+// Where a command is told to put a picture or a page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scree::run {
+
+// Throws InputError unless the name ends in one of these and the folder is there: before anything is drawn.
+void check_output_place(const std::string& option, const std::filesystem::path& file, const std::vector<std::string>& endings);
+
+}  // namespace scree::run
