@@ -40,11 +40,6 @@ auto evaluated(const Function& function, double time, const std::string& name, c
   });
 }
 
-// What is to be passed on as fourth_order.h does so that the heat of a source is where it is made, but for O(h^4).
-Eigen::VectorXd unshared(const HeatModel& model, const Eigen::VectorXd& heat) {
-  return heat - *model.shared_capacity * heat.cwiseQuotient(model.capacity);
-}
-
 ExchangeRates rates(const Exchange& exchange, double time) {
   const std::size_t count = exchange.on.nodes.size();
   ExchangeRates result{Eigen::VectorXd(count), Eigen::VectorXd(count)};
@@ -99,19 +94,21 @@ void Drives::evaluate(Part part, Drive& drive) const {
     if (varies_in_time(model_.holds[hold]) != varying) continue;
     drive.fixed[static_cast<Eigen::Index>(i)] = temperatures[hold](model_.places.col(model_.fixed_nodes[i].value()));
   }
+  Eigen::VectorXd shared = Eigen::VectorXd::Zero(model_.shared_capacity ? drive.load.size() : 0);  // of sources
   for (std::size_t l = 0; l < model_.loads.size(); ++l) {
     const Load& load = model_.loads[l];
     if (varies_in_time(load) != varying) continue;
     auto density = evaluated(load.density, drive.time, load.name, any_value);
-    Eigen::VectorXd heat = Eigen::VectorXd::Zero(drive.load.size());
     for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
-      const double of_node = load.on.shares[i] * density(load.on.places.col(static_cast<Eigen::Index>(i)));
-      heat[load.on.nodes[i].value()] += of_node;
-      drive.load_sizes[load.on.nodes[i].value()] += std::abs(of_node);
-      drive.by_load[l] += of_node;
+      const double heat = load.on.shares[i] * density(load.on.places.col(static_cast<Eigen::Index>(i)));
+      drive.load[load.on.nodes[i].value()] += heat;
+      drive.load_sizes[load.on.nodes[i].value()] += std::abs(heat);
+      drive.by_load[l] += heat;
+      if (load.in_volume && shared.size() > 0) shared[load.on.nodes[i].value()] += heat;
     }
-    drive.load += load.in_volume && model_.shared_capacity ? unshared(model_, heat) : heat;
   }
+  // Q - B C^-1 Q (fourth_order.h).
+  if (shared.size() > 0) drive.load -= *model_.shared_capacity * shared.cwiseQuotient(model_.capacity);
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
     if (varies_in_time(exchange) == varying) drive.exchanges[e] = rates(exchange, drive.time);

@@ -22,13 +22,7 @@ SourceLocation location(const std::string& file, const YAML::Mark& mark) {
 
 [[noreturn]] void refuse(const SourceLocation& where, const std::string& value, const std::string& rule,
                          const std::string& suggestion) {
-  Problem problem;
-  problem.where = where;
-  problem.key = "the file";
-  problem.value = value;
-  problem.rule = rule;
-  problem.suggestion = suggestion;
-  throw InputError(std::move(problem));
+  throw InputError(Problem{where, "the file", value, rule, suggestion});
 }
 
 // What JSON takes, which all that is said of a run is written in.

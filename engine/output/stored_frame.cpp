@@ -44,13 +44,7 @@ std::filesystem::path frame_of(const StoredField& stored, const std::filesystem:
 }  // namespace
 
 Problem StoredField::problem(const std::string& value, const std::string& rule, const std::string& suggestion) const {
-  Problem problem;
-  problem.where = where;
-  problem.key = "heat.initial.from";
-  problem.value = value;
-  problem.rule = rule;
-  problem.suggestion = suggestion;
-  return problem;
+  return {where, "heat.initial.from", value, rule, suggestion};
 }
 
 std::filesystem::path stored_frame(const StoredField& stored) {
