@@ -5,28 +5,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/mesh/disjoint_sets.h"
 #include "thermal/drive.h"
+#include "thermal/joined_rows.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
 
-namespace {
-
-void join(const SparseMatrix& conductance, mesh::DisjointSets& groups) {
-  for (int column = 0; column < conductance.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator entry(conductance, column); entry; ++entry) {
-      if (entry.value() != 0) groups.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
-    }
-  }
-}
-
-}  // namespace
-
 void check_anchors(const HeatModel& model) {
   mesh::DisjointSets groups(model.blocks.size());
-  join(model.conductance, groups);
-  if (model.varying) join(model.varying->unit_conductance, groups);
+  join_rows(model.conductance, groups);
+  if (model.varying) join_rows(model.varying->unit_conductance, groups);
 
   Drives drives(model);
   const Drive& drive = drives.at(0);

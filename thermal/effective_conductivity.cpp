@@ -7,11 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "engine/mesh/cells.h"
-#include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/part_in_box.h"
 #include "thermal/block_conduction.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
+#include "thermal/joined_rows.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -83,11 +83,7 @@ class Sample {
   template <class Held>
   void hold(const Held& held) {
     mesh::DisjointSets groups(rows_.size());
-    for (int column = 0; column < model_.conductance.outerSize(); ++column) {
-      for (SparseMatrix::InnerIterator entry(model_.conductance, column); entry; ++entry) {
-        if (entry.value() != 0) groups.join(static_cast<std::size_t>(entry.row()), static_cast<std::size_t>(column));
-      }
-    }
+    join_rows(model_.conductance, groups);
     for (std::size_t row = 0; row < rows_.size(); ++row) group_[row] = groups.root(row);
     std::vector<char> grounded(rows_.size(), 0);
     std::vector<char> fixed(rows_.size(), 0);

@@ -22,6 +22,7 @@ constexpr double least_gain = 0.2;      // of an iteration, before a new matrix 
 constexpr double left_of_heat = 1e-13;  // residual, of the heat that the stage moves
 constexpr double served_change = 0.02;  // of any entry of M's diagonal and of any conductivity, before M no longer serves
 constexpr double near_rounding = 4;     // a residual of up to so many times what rounding leaves is taken for that
+constexpr double quarter_of_a_unit = 0.25 * std::numeric_limits<double>::epsilon();
 
 class EnthalpyScheme : public TimeScheme {
  public:
@@ -102,14 +103,18 @@ class EnthalpyScheme : public TimeScheme {
 
   // The residual that rounding leaves [J]: a temperature is off by a quarter of a unit in its last place on average, of which
   // M's diagonal makes heat. At stiff joints it is what Newton's iteration comes to: 0.9 to 1.1 of this in the pile at beta
-  // 1000 to 1e6. Where c or k has been far larger on the way from where its integral begins, that is what is rounded.
-  [[nodiscard]] double left_by_rounding(const Eigen::VectorXd& from, const Eigen::VectorXd& temperature) const {
-    constexpr double quarter_of_a_unit = 0.25 * std::numeric_limits<double>::epsilon();
+  // 1000 to 1e6.
+  [[nodiscard]] double left_by_rounding(const Eigen::VectorXd& temperature) const {
+    return quarter_of_a_unit * free_.gather(diagonal_.cwiseProduct(temperature.cwiseAbs())).sum();
+  }
+
+  // Where c or k has been far larger on the way from where its integral begins, that is what is rounded. It takes going through
+  // the curves again.
+  [[nodiscard]] double left_by_integrals(const Eigen::VectorXd& from, const Eigen::VectorXd& temperature) const {
     Eigen::VectorXd integrals = balance_.largest_stored(from, temperature);
     if (unit_conductance_.size() > 0)
       integrals += scale_ * unit_conductance_.cwiseProduct(balance_.conducted(temperature).cwiseAbs());
-    const Eigen::VectorXd heat = diagonal_.cwiseProduct(temperature.cwiseAbs()).cwiseMax(integrals);
-    return quarter_of_a_unit * free_.gather(heat).sum();
+    return quarter_of_a_unit * free_.gather(integrals).sum();
   }
 
   // By which all free nodes alike take up so much heat [K].
@@ -144,20 +149,27 @@ class EnthalpyScheme : public TimeScheme {
       // What rounding leaves is flows between neighbours, which cancel in the sum: that is what the ledger lacks. Where another
       // solution would not make it less one change of all temperatures does.
       const double sum = std::abs(residual.sum());
-      const bool rounded = left <= near_rounding * left_by_rounding(from.temperature, stage.temperature);
+      const bool gains = left <= least_gain * before;
+      const bool rounded = left <= near_rounding * left_by_rounding(stage.temperature) ||
+                           (!gains && left <= near_rounding * left_by_integrals(from.temperature, stage.temperature));
       if (rounded && (sum <= enough || evened)) return true;
       if (rounded && sum > least_gain * sum_before) {
         stage.temperature += change_of_all(residual.sum());
         evened = true;
         continue;
       }
-      const bool slow = !rounded && left > least_gain * before;
-      if (slow) linearise(stage, balance_.linearised(stage.temperature, drives_.at(stage.time)));
+      if (!rounded && !gains) linearise(stage, balance_.linearised(stage.temperature, drives_.at(stage.time)));
       before = left;
       sum_before = sum;
       stage.temperature += free_.scatter(solver_.correction(residual));
+      if (below_zero(from.temperature, stage.temperature)) return false;
     }
     return false;
+  }
+
+  // Whether a node is at 0 K that was above it: a formula may have no value there, and shorter steps do not get there.
+  static bool below_zero(const Eigen::VectorXd& from, const Eigen::VectorXd& temperature) {
+    return (temperature.array() <= 0 && from.array() > 0).any();
   }
 
   // How the error changes over the step, and what that takes off the companion's heats. An error keeps its heat, not its

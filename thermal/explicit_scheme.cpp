@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 #include "thermal/problems.h"
 #include "thermal/time_scheme.h"
@@ -19,12 +20,10 @@ class ExplicitScheme : public TimeScheme {
  public:
   explicit ExplicitScheme(const HeatModel& model)
       : model_(model),
-        inverse_(model.capacity.cwiseInverse()),
+        inverse_(inverse_capacity(model, model.capacity)),
         drives_(model),
         balance_(model),
-        linear_(balance_.linearised(model.initial, drives_.at(0))) {
-    for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
-  }
+        linear_(balance_.linearised(model.initial, drives_.at(0))) {}
 
   Step step(const Instant& from, double length) override {
     const Eigen::VectorXd heating = balance_.heating(from.temperature, drives_.at(from.time));

@@ -2,6 +2,12 @@
 
 namespace scree::thermal {
 
+Eigen::VectorXd inverse_capacity(const HeatModel& model, const Eigen::VectorXd& capacity) {
+  Eigen::VectorXd inverse = capacity.cwiseInverse();
+  for (const NodeId node : model.fixed_nodes) inverse[node.value()] = 0;
+  return inverse;
+}
+
 FreeNodes::FreeNodes(const HeatModel& model) : unknowns_(static_cast<std::size_t>(model.capacity.size()), 0) {
   for (const NodeId node : model.fixed_nodes) unknowns_[node.index()] = -1;
   for (std::size_t node = 0; node < unknowns_.size(); ++node) {

@@ -5,6 +5,9 @@
 
 namespace scree::thermal {
 
+// 1/C of the free nodes; 0 of fixed ones, which is as good as an infinite capacity [K/J].
+Eigen::VectorXd inverse_capacity(const HeatModel& model, const Eigen::VectorXd& capacity);
+
 class FreeNodes {
  public:
   explicit FreeNodes(const HeatModel& model);

@@ -65,7 +65,7 @@ struct Source {
 };
 
 enum class Integrator {
-  automatic,            // stabilised explicit or implicit, whichever costs less
+  automatic,            // stabilised explicit, implicit, or short steps the one and longer ones the other: what costs least
   implicit,             // L-stable, second order, steps from the tolerance
   stabilised_explicit,  // second order, steps from the tolerance
   explicit_euler,       // eq. (8)

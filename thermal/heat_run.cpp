@@ -12,6 +12,7 @@
 #include "thermal/error_budget.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
+#include "thermal/passed_outputs.h"
 #include "thermal/problems.h"
 #include "thermal/step_grid.h"
 #include "thermal/time_bends.h"
@@ -21,11 +22,6 @@ namespace scree::thermal {
 
 namespace {
 
-// A step that passes outputs takes two intervals at least, and each is at most four times the one before: shorter ones than
-// this, of an output interval, are not among the four that it needs.
-constexpr double least_remembered = 0.125 * (1 - 1e-9);
-// Of the tolerance: nodes whose temperature changes by less in a step bend nothing that is seen at outputs.
-constexpr double least_bending = 0.1;
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
@@ -41,7 +37,8 @@ class HeatRun::Implementation {
         scheme_(choose_scheme(model_, options)),
         budget_(options, scheme_.scheme->safety()),
         bookkeeper_(model_, scheme_.scheme->sums()),
-        drives_(model_) {
+        drives_(model_),
+        passed_(model_, options) {
     if (options.integrator == Integrator::explicit_euler) explicit_step_ = explicit_step(model_, options);
     state_.temperature = after_jump(model_, held(model_, model_.initial, drives_.at(0)));
     state_.error = Eigen::VectorXd::Zero(model_.initial.size());
@@ -114,7 +111,7 @@ class HeatRun::Implementation {
     const double nearest = std::round(state_.time / every);
     const bool at_output = std::abs(state_.time / every - nearest) <= on_grid;
     const double begin = at_output ? nearest * every : state_.time;
-    const double count = at_output ? intervals_from(nearest, every, limit) : 1;
+    const double count = at_output ? passed_.intervals_from(nearest, every, limit, state_.earlier, state_.next_step) : 1;
     const double next = (at_output ? nearest + count : std::ceil(state_.time / every)) * every;
     const bool whole = limit >= next - on_grid * every;
     const double end = whole ? next : limit;
@@ -130,28 +127,6 @@ class HeatRun::Implementation {
       chosen_steps(span.begin, span.length, progress);
     }
     state_.time = span.end;
-  }
-
-  // As many as one step takes, in powers of two that begin at multiples of themselves; the temperatures are to be smooth from
-  // the first of the ends on that the cubic needs, and in the span as its steps will look at it, which may see a shorter pulse.
-  [[nodiscard]] double intervals_from(double nearest, double every, double limit) const {
-    double count = 1;
-    constexpr std::size_t earliest = BetweenSteps::ends_before - 2;
-    if (state_.earlier.size() <= earliest) return count;
-    const auto fits = [&](double more) {
-      return StepGrid(0, more * every, state_.next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
-             (nearest + more) * every <= limit + on_grid * every &&
-             are_smooth(state_.earlier[earliest].time, (nearest + more) * every) &&
-             are_smooth(nearest * every, nearest * every + more * every);
-    };
-    while (fits(2 * count)) count *= 2;
-    return count;
-  }
-
-  [[nodiscard]] bool are_smooth(double begin, double end) const {
-    if (!drives_.vary()) return true;
-    const TimeBends bends(model_, begin, end);
-    return bends.jumps().empty() && !bends.any_between(begin, end);
   }
 
   // Each stretch between two jumps has steps of its own, which know nothing of these.
@@ -209,8 +184,9 @@ class HeatRun::Implementation {
         grid.refine();
         continue;
       }
-      const StepEnds ends = ends_behind(step, grid);
-      const double between = error_of_passed(step, ends, grid);
+      const PassedOutputs::Way way{grid.time(), dt, state_.temperature, step.change};
+      const StepEnds ends = passed_.ends_behind(way, state_.earlier);
+      const double between = passed_.error(way, ends);
       if (between > budget_.of_passed(step.error)) {
         ++state_.rejected_steps;
         grid.refine();
@@ -229,33 +205,6 @@ class HeatRun::Implementation {
     }
   }
 
-  [[nodiscard]] bool passes_outputs(const StepGrid& grid) const {
-    return options_.output_every > 0 && grid.step() > 1.5 * options_.output_every;
-  }
-
-  // At the outputs that the step passes which the grid is at [K]; 0 if there are none.
-  [[nodiscard]] double error_of_passed(const Step& step, const StepEnds& ends, const StepGrid& grid) const {
-    if (!passes_outputs(grid)) return 0;
-    if (ends.size() < BetweenSteps::ends_before) return std::numeric_limits<double>::infinity();
-    const double every = options_.output_every, end = grid.time() + grid.step();
-    return BetweenSteps(end, state_.temperature + step.change, ends).error(grid.time() + every, end - 0.5 * every, every);
-  }
-
-  // What outputs that this step or later ones pass are made from: nothing from before the temperatures were bent.
-  [[nodiscard]] StepEnds ends_behind(const Step& step, const StepGrid& grid) const {
-    const StepEnd start = start_of(grid);
-    const bool bent = start.temperature && bends_on_the_way(model_, state_.temperature, state_.temperature + step.change,
-                                                            least_bending * options_.tolerance);
-    return bent ? StepEnds() : followed_by(start, state_.earlier);
-  }
-
-  // Without temperatures if no output that a step passes will ask for them.
-  [[nodiscard]] StepEnd start_of(const StepGrid& grid) const {
-    const double every = options_.output_every;
-    const bool may_serve = every > 0 && every < options_.until && grid.step() >= least_remembered * every;
-    return {grid.time(), may_serve ? std::make_shared<const Eigen::VectorXd>(state_.temperature) : nullptr};
-  }
-
   // At an output that the last step passed.
   [[nodiscard]] Eigen::VectorXd passed_at(double time) {
     return held(model_, BetweenSteps(state_.time, state_.temperature, state_.earlier).at(time), drives_.at(time));
@@ -271,7 +220,7 @@ class HeatRun::Implementation {
   // What the scheme's own estimate of a step does not see of bends within it [K]; nothing if there are none. A step that passes
   // outputs is so long that what bends more gently is looked at, too.
   [[nodiscard]] std::optional<DriveDefect> missed_in(const StepGrid& grid, const TimeBends& bends) const {
-    const bool long_one = drives_.vary() && passes_outputs(grid);
+    const bool long_one = drives_.vary() && passed_.any_in(grid.step());
     if (!long_one && !bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
     return drive_defect(model_, scheme_.scheme->drive_quadrature(grid.step()), grid.time(), grid.step(), state_.temperature,
                         capacity_at(model_, state_.temperature));
@@ -354,6 +303,7 @@ class HeatRun::Implementation {
   ErrorBudget budget_;
   Bookkeeper bookkeeper_;
   Drives drives_;
+  PassedOutputs passed_;
   std::optional<LumpingEstimate> lumping_;  // if blocks are lumped
   double explicit_step_ = 0;                // [s]
   HeatState state_;

@@ -1,5 +1,6 @@
 #include "thermal/solver_cost.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ SolverCost multigrid_cost(std::int64_t entries) {
 // Solves with an eighth of the factor of a large plane grid (31/4 n log2 n entries with nested dissection; George, SIAM J.
 // Numer. Anal. 10, 1973). Solids have far more, small plane meshes hardly less.
 SolverCost least_cholesky_cost(double unknowns) {
-  return {0, seconds_per_factor * unknowns * std::log2(unknowns)};
+  return {0, seconds_per_factor * unknowns * std::log2(std::max(unknowns, 1.0))};
 }
 
 SolverCost least_cholesky_cost(const FactorSize& quick) {

@@ -12,8 +12,6 @@
 // Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J x) is half of F''(D, D),
 // so -h/3 C^-1 times that is added. A coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1)
 // times what they are of D. The global error is carried by the scheme itself as a second column of each product.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -30,6 +28,7 @@
 #include "thermal/rkl2.h"
 #include "thermal/stable_step.h"
 #include "thermal/time_scheme.h"
+#include "thermal/watched_mean.h"
 
 namespace scree::thermal {
 
@@ -38,35 +37,6 @@ namespace {
 using namespace rkl2;
 
 using Columns = MovingDrive::Columns;
-
-// S at the nodes that the ledger reads, which are ascending.
-class WatchedMean {
- public:
-  explicit WatchedMean(const std::vector<NodeId>& nodes) : nodes_(nodes) {
-    for (std::vector<double>& mean : means_) mean.assign(nodes.size(), 0.0);
-  }
-
-  // Stage j of these rows, in the place of j - 2, from x of the one before.
-  void advance(int j, const Coefficients& with, const Columns& increment, int first, int rows) {
-    const std::vector<double>& newer = means_[(j - 1) % 2];
-    std::vector<double>& older = means_[j % 2];
-    const auto begin = std::lower_bound(nodes_.begin(), nodes_.end(), NodeId(static_cast<std::size_t>(first)));
-    for (auto node = begin; node != nodes_.end() && node->value() < first + rows; ++node) {
-      const auto i = static_cast<std::size_t>(node - nodes_.begin());
-      older[i] = with.mu * newer[i] + with.nu * older[i] + with.product * increment(node->value(), 0);
-    }
-  }
-
-  // The last of so many stages.
-  [[nodiscard]] Eigen::VectorXd added_to(Eigen::VectorXd temperature, int stages) const {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) temperature[nodes_[i].value()] += means_[stages % 2][i];
-    return temperature;
-  }
-
- private:
-  const std::vector<NodeId>& nodes_;
-  std::array<std::vector<double>, 2> means_;
-};
 
 class StabilisedScheme : public TimeScheme {
  public:
@@ -146,8 +116,7 @@ class StabilisedScheme : public TimeScheme {
 
   void linearise(const Instant& at) {
     linear_ = balance_.linearised(at.temperature, drives_.at(at.time));
-    inverse_ = linear_.capacity.cwiseInverse();
-    for (const NodeId node : model_.fixed_nodes) inverse_[node.value()] = 0;  // as good as an infinite capacity
+    inverse_ = inverse_capacity(model_, linear_.capacity);
   }
 
   void follow(const Instant& from) {

@@ -7,6 +7,7 @@
 #include "engine/base/phases.h"
 #include "thermal/drive.h"
 #include "thermal/fourth_order.h"
+#include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 
 namespace scree::thermal {
@@ -24,9 +25,7 @@ class Magnitudes {
       : conductance_(model.conductance),
         unit_conductance_(state.conductivity.size() > 0 ? &model.varying->unit_conductance : nullptr),
         state_(state),
-        inverse_(state.capacity.cwiseInverse()) {
-    for (const NodeId node : model.fixed_nodes) inverse_[node.value()] = 0;
-  }
+        inverse_(inverse_capacity(model, state.capacity)) {}
 
   // The largest rate at which a node loses heat to surroundings [1/s].
   [[nodiscard]] double largest_loss() const { return inverse_.size() > 0 ? inverse_.cwiseProduct(state_.loss).maxCoeff() : 0; }

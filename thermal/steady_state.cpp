@@ -5,6 +5,7 @@
 // (T_end/T_0)^3.
 #include "thermal/steady_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -91,7 +92,7 @@ class SteadySolver {
 
   // The whole of the change, or as much as brings the balance nearer; says how far that is [K].
   double take(const Eigen::VectorXd& change, Eigen::VectorXd& temperature, Eigen::VectorXd& heating) const {
-    double share = 1;
+    double share = largest_share(change, temperature);
     const double before = heating.lpNorm<1>();
     for (int halving = 0; halving <= most_halvings; ++halving, share /= 2) {
       const Eigen::VectorXd tried = temperature + share * change;
@@ -104,6 +105,18 @@ class SteadySolver {
       break;
     }
     return share * change.lpNorm<Eigen::Infinity>();
+  }
+
+  // That leaves every node above 0 K: below it a formula may have no value.
+  [[nodiscard]] double largest_share(const Eigen::VectorXd& change, const Eigen::VectorXd& temperature) const {
+    constexpr double most_cooled = 0.75;
+    double share = 1;
+    if (has_constant_properties(model_)) return share;
+    for (Eigen::Index i = 0; i < change.size(); ++i) {
+      if (temperature[i] > 0 && temperature[i] + change[i] <= 0)
+        share = std::min(share, most_cooled * temperature[i] / -change[i]);
+    }
+    return share;
   }
 
   [[nodiscard]] bool converged(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating, double moved,

@@ -26,8 +26,8 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
   const double step = options.step.value_or(stable.step);
   if (step > stable.step) {
     throw InputError(problem("heat.step", fmt::format("{:g} s", step),
-                             fmt::format("must be at most the stable step of {:.6g} s, which node {} of block {} sets",
-                                         stable.step, stable.node.value(), model.blocks[stable.node].value()),
+                             fmt::format("must be at most the stable step of {:.6g} s, which block {} sets", stable.step,
+                                         model.blocks[stable.node].value()),
                              "Leave the step out, or use the implicit integrator, which has no such limit"));
   }
   return step;

@@ -53,8 +53,7 @@ MeshReaders all_readers(const MeshReaders& more) {
 RawMesh read_raw(const BodySpec& body, const MeshReaders& more) {
   const std::filesystem::path& path = std::get<MeshFile>(body.shape).path;
   const MeshReaders readers = all_readers(more);
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = extension_of(std::get<MeshFile>(body.shape));
   const auto reader = readers.find(extension);
   if (reader == readers.end()) {
     std::vector<std::string> known;
@@ -95,6 +94,12 @@ void expect_in_plane(const BodySpec& body, const RawMesh& raw) {
 }
 
 }  // namespace
+
+std::string extension_of(const MeshFile& file) {
+  std::string extension = file.path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
 
 template <int dim>
 Parts<dim> mesh_file(const BodySpec& body, const MeshReaders& readers) {

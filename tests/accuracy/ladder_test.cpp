@@ -40,6 +40,16 @@ TEST(Ladder, LeavesTheMeshOfBlocksThatFallAlone) {
   EXPECT_THROW(ladder_of(scene("small_pile"), options), InputError);
 }
 
+TEST(Ladder, VariesTheMeshInsideASurfaceFileWhateverTheLettersOfItsName) {
+  Scene slab = scene("slab");
+  for (const char* file : {"stone.stl", "STONE.STL"}) {
+    for (mesh::BodySpec& body : slab.bodies) body.shape = mesh::MeshFile{file};
+    EXPECT_EQ(ladder_of(slab, {}).size(), 9u) << file;
+  }
+  for (mesh::BodySpec& body : slab.bodies) body.shape = mesh::MeshFile{"stone.msh"};
+  for (const Rung& rung : ladder_of(slab, {})) EXPECT_DOUBLE_EQ(rung.mesh_factor, 1);
+}
+
 TEST(Ladder, RunsTheExplicitSchemeOncePerMeshSinceItsStepsFollowFromStability) {
   LadderOptions options;
   options.mesh_factors = {1};

@@ -90,8 +90,12 @@ class Scenes(unittest.TestCase):
                               "settle.gravity": numpy.array([0, 0, -1.5]), "bodies.plate.fixed": numpy.bool_(True)})
         self.assertIn("iterations: 60", other.effective)
         self.assertIn("gravity: [0.0, 0.0, -1.5]", other.effective)
+        exact = base.changed({"heat.until": numpy.longdouble(1800), "settle.gravity": numpy.array([0, 0, -1.5], numpy.longdouble)})
+        self.assertIn("until: 1800", exact.effective)
         with self.assertRaisesRegex(TypeError, "no place for a <class 'object'>"):
             base.changed({"heat.until": object()})
+        with self.assertRaisesRegex(TypeError, "must be a text, not 1"):
+            base.changed({1: 2})
         with self.assertRaisesRegex(scree.InputError, "packing is .*none.h5"):
             base.changed({"settle": None, "packing": pathlib.Path("none.h5")})
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/mesh/mesh_file.h"
+
 namespace scree::accuracy {
 
 namespace {
@@ -14,7 +16,7 @@ namespace {
 bool mesh_can_vary(const Scene& scene) {
   const auto is_given = [](const mesh::BodySpec& body) {
     const auto* file = std::get_if<mesh::MeshFile>(&body.shape);
-    return file != nullptr && file->path.extension() != ".stl";
+    return file != nullptr && mesh::extension_of(*file) != ".stl";
   };
   if (std::all_of(scene.bodies.begin(), scene.bodies.end(), is_given)) return false;
   return !scene.settle && !scene.packing &&

@@ -16,7 +16,11 @@ namespace {
 // What json does not know: paths, and the numbers and arrays of numpy.
 py::object plain(const py::object& value) {
   if (py::hasattr(value, "__fspath__")) return py::module_::import("os").attr("fspath")(value);
-  if (py::hasattr(value, "tolist")) return value.attr("tolist")();
+  if (py::hasattr(value, "tolist")) {
+    py::object list = value.attr("tolist")();
+    // Of a number that Python has no type for, as numpy's long double, it is the same again.
+    return py::type::of(list).is(py::type::of(value)) ? py::float_(list) : list;
+  }
   throw py::type_error(fmt::format("a scene has no place for a {}", py::repr(py::type::of(value)).cast<std::string>()));
 }
 
@@ -29,8 +33,12 @@ std::string as_yaml(const py::handle& value) {
 // Of any mapping.
 std::vector<std::string> overrides_of(const py::object& changes) {
   std::vector<std::string> overrides;
-  for (const auto& [key, value] : py::dict(changes))
+  for (const auto& [key, value] : py::dict(changes)) {
+    if (!py::isinstance<py::str>(key)) {
+      throw py::type_error(fmt::format("a key of a scene must be a text, not {}", py::repr(key).cast<std::string>()));
+    }
     overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), as_yaml(value)));
+  }
   return overrides;
 }
 

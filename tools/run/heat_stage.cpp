@@ -90,6 +90,54 @@ std::optional<std::string> lumped_words(const thermal::HeatModel& model) {
                      model.rows.nodes());
 }
 
+// What the equations are of, where that is not simply every node.
+template <int dim>
+void say_rows(RunContext& context, const HeatOutcome<dim>& outcome) {
+  if (const auto said = lumped_words(*outcome.model)) context.progress.note("heat: " + *said);
+  if (const std::size_t tied = outcome.model->tied_nodes; tied > 0) {
+    context.progress.note(
+        fmt::format("heat: faces of perfect joints match: {} of {} nodes are one with others, {} temperatures", tied,
+                    outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
+  }
+}
+
+// How much of the blocks' surfaces lies on others, and which boundaries act there, too.
+template <int dim>
+void find_overlaps(RunContext& context, HeatOutcome<dim>& outcome) {
+  if (const auto& contacts = outcome.pile.contacts; !contacts.contacts.empty()) {
+    outcome.overlap_areas = context.stage("areas", fmt::format("{} contacts", contacts.contacts.size()), [&] {
+      return contact::overlap_areas(outcome.pile.mesh, contacts, search_of(context.scene, outcome.pile));
+    });
+  }
+  outcome.covered = covered_boundaries(outcome.pile.mesh, context.scene.heat->boundaries, outcome.overlap_areas);
+  for (const CoveredBoundary& boundary : outcome.covered) {
+    context.progress.note(
+        fmt::format("heat: {} acts on {:.4g} m2, of which {:.4g} m2 lie on other blocks; a box (`within`) can "
+                    "leave them out",
+                    boundary.name, boundary.area, boundary.covered_area));
+  }
+}
+
+// Those beside the time error.
+template <int dim>
+void find_errors(RunContext& context, HeatOutcome<dim>& outcome) {
+  const thermal::HeatState& state = outcome.state;
+  if (outcome.model->lumped) {
+    context.progress.note(
+        fmt::format("heat: lumping blocks makes an error of some {:.2g} K (estimated)", state.lumping.largest));
+  }
+  const auto& probes = outcome.pile.probes;
+  if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {
+    outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
+  }
+  if (context.estimate_space_error) {
+    const thermal::NodeMap& rows = outcome.model->rows;
+    const auto rate = thermal::temperature_rate(*outcome.model, state.temperature, state.time);
+    outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, context.scene.materials,
+                                                        rows.to_nodes(state.temperature), rows.to_nodes(rate));
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -104,12 +152,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
       return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, *window);
     });
   }
-  if (const auto said = lumped_words(*outcome.model)) context.progress.note("heat: " + *said);
-  if (const std::size_t tied = outcome.model->tied_nodes; tied > 0) {
-    context.progress.note(
-        fmt::format("heat: faces of perfect joints match: {} of {} nodes are one with others, {} temperatures", tied,
-                    outcome.pile.mesh.nodes.size(), outcome.model->capacity.size()));
-  }
+  say_rows(context, outcome);
   const auto begin = [&] {
     if (context.begun && !is_placed(scene)) return;  // when the blocks fell
     context.aside("begin", [&] {
@@ -122,32 +165,8 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
     scene.heat->time.steady ? find_steady(context, begin, outcome) : run_in_time(context, begin, outcome);
     return true;
   });
-  if (outcome.model->lumped) {
-    context.progress.note(
-        fmt::format("heat: lumping blocks makes an error of some {:.2g} K (estimated)", outcome.state.lumping.largest));
-  }
-  if (const auto& contacts = outcome.pile.contacts; !contacts.contacts.empty()) {
-    outcome.overlap_areas = context.stage("areas", fmt::format("{} contacts", contacts.contacts.size()), [&] {
-      return contact::overlap_areas(outcome.pile.mesh, contacts, search_of(scene, outcome.pile));
-    });
-  }
-  outcome.covered = covered_boundaries(outcome.pile.mesh, scene.heat->boundaries, outcome.overlap_areas);
-  for (const CoveredBoundary& boundary : outcome.covered) {
-    context.progress.note(
-        fmt::format("heat: {} acts on {:.4g} m2, of which {:.4g} m2 lie on other blocks; a box (`within`) can "
-                    "leave them out",
-                    boundary.name, boundary.area, boundary.covered_area));
-  }
-  const auto& probes = outcome.pile.probes;
-  if (std::any_of(probes.begin(), probes.end(), [](const output::Probe<dim>& probe) { return probe.exact.has_value(); })) {
-    outcome.exact_error = output::largest_error(output::read_probe_history(context.files.probes()));
-  }
-  if (context.estimate_space_error) {
-    const thermal::NodeMap& rows = outcome.model->rows;
-    const auto rate = thermal::temperature_rate(*outcome.model, outcome.state.temperature, outcome.state.time);
-    outcome.space_error = thermal::estimate_space_error(outcome.pile.mesh, scene.materials,
-                                                        rows.to_nodes(outcome.state.temperature), rows.to_nodes(rate));
-  }
+  find_errors(context, outcome);
+  find_overlaps(context, outcome);
   return outcome;
 }
 

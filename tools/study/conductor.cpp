@@ -165,7 +165,6 @@ void Conductor::stop_all() {
   for (const Active& active : active_) active.process.interrupt();
   for (Active& active : active_) write_outcome(files_, active.run->directory, active.process.wait());
   active_.clear();
-  after_each_();
 }
 
 void Conductor::show(const std::string& event) {

@@ -1,5 +1,6 @@
 #include "tools/study/study_command.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -44,6 +45,25 @@ Table write_tables(const Study& study, const std::vector<PlannedRun>& runs, cons
   }
   return table;
 }
+
+// The table on the way. Each is made of all runs anew, so that tables of many short runs would take longer than these: it waits
+// until those before it have taken no more than a part of the time.
+class TablesOnTheWay {
+ public:
+  template <class Write>
+  void next(const Write& write) {
+    constexpr double most = 0.05;
+    const auto start = Clock::now();
+    if (taken_ > most * (start - begin_)) return;
+    write();
+    taken_ += Clock::now() - start;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now();
+  std::chrono::duration<double> taken_{0};
+};
 
 // The table of the runs, and what is to be said of it. Complete only if all runs are, and all their figures are there.
 Ending conclude(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
@@ -91,8 +111,14 @@ int make_all(const Arguments& arguments, const Study& study, const std::vector<P
   means.jobs = given(arguments.jobs).value_or(available_processors());
   means.threads = given(arguments.threads);
   means.memory = available_memory();
-  Conductor conductor(study, files, means, progress, [&] { write_tables(study, runs, files); });
-  conductor.make(runs);
+  const auto write = [&] { write_tables(study, runs, files); };
+  TablesOnTheWay tables;
+  try {
+    Conductor(study, files, means, progress, [&] { tables.next(write); }).make(runs);
+  } catch (...) {
+    write();
+    throw;
+  }
   progress.finish("");
   return finish(conclude(study, runs, files), progress);
 }
