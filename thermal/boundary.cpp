@@ -1,6 +1,7 @@
 #include "thermal/boundary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "engine/mesh/cells.h"
 #include "engine/mesh/part_in_box.h"
 #include "engine/mesh/surfaces.h"
+#include "thermal/looks_in_time.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -150,7 +152,7 @@ class Applier {
     bool conflict = false;
     for (const NodeId node : nodes) {
       const int holder = held_.try_emplace(node, index).first->second;
-      const auto time = conflict || holder == index ? std::nullopt : disagreement(holder, temperature, node);
+      const auto time = conflict || holder == index ? std::nullopt : disagreement({holder, index}, node);
       if (!time) continue;
       conflict = true;
       const Hold& hold = model_.holds[holder];
@@ -165,13 +167,14 @@ class Applier {
     if (nodes.empty()) nothing_there(boundary.where, "heat.boundaries", boundary.name, boundary.region, "at least one node");
   }
 
-  // A time at which the two do not hold the node at the same temperature; functions are compared at three times of the run.
-  std::optional<double> disagreement(int holder, const Function& temperature, NodeId node) const {
-    for (const double share : {0.0, 0.37, 1.0}) {
-      const double time = share * until_;
-      if (model_.holds[holder].temperature(place(node), time) != temperature(place(node), time)) return time;
-    }
-    return std::nullopt;
+  // A time at which the two do not hold the node at the same temperature.
+  std::optional<double> disagreement(const std::pair<int, int>& holders, NodeId node) {
+    const Function &one = model_.holds[holders.first].temperature, &other = model_.holds[holders.second].temperature;
+    LooksInTime& looks = looks_.try_emplace(holders, until_).first->second;
+    return looks.first(one.varies_in_time() || other.varies_in_time(), [&](double time) {
+      const double a = one(place(node), time), b = other(place(node), time);
+      return std::abs(a - b) > equal_temperatures * std::max(std::abs(a), std::abs(b));
+    });
   }
 
   Eigen::Vector3d place(NodeId node) const { return model_.places.col(node.value()); }
@@ -239,8 +242,9 @@ class Applier {
   std::optional<Table<FaceId, mesh::WeightedFace<dim>>> faces_;  // once something passes heat through faces
   Table<BodyId, std::vector<BlockId>> blocks_of_;
   Aabb<dim> everywhere_;
-  double rounding_ = 0;         // [m]
-  std::map<NodeId, int> held_;  // which of the model's holds
+  double rounding_ = 0;                               // [m]
+  std::map<std::pair<int, int>, LooksInTime> looks_;  // at conditions that hold the same nodes
+  std::map<NodeId, int> held_;                        // which of the model's holds
   std::vector<Problem> problems_;
 };
 

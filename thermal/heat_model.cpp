@@ -187,7 +187,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
                           const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
                           const HeatOptions& options) {
   HeatModel model = unjoined(mesh, materials, options, {});
-  check_held_joints(joints, model);
+  check_held_joints(joints, model, options.time.until);
   set_varying(mesh, materials, model);
   model.lumped = choose_lumped(mesh, materials, contacts, joints, options, model);
   // Fourth order knows no neighbours but its own, and a node of two materials no one curve.

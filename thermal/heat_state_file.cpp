@@ -1,6 +1,8 @@
 // The restart file: HDF5, one data set per vector, the rest as two lists, and a digest of it all, so that a damaged file is
 // noticed.
+#include <new>
 #include <span>
+#include <stdexcept>
 
 #include <H5Cpp.h>
 #include <fmt/format.h>
@@ -203,6 +205,10 @@ HeatState read_state(const std::filesystem::path& file, const std::string& key) 
     }
     return unpack(lists);
   } catch (const H5::Exception&) {
+    refuse(file, damaged, "Delete it and run the scene from its start");
+  } catch (const std::logic_error&) {  // a text that is not there, or a list longer than any
+    refuse(file, damaged, "Delete it and run the scene from its start");
+  } catch (const std::bad_alloc&) {  // or than memory
     refuse(file, damaged, "Delete it and run the scene from its start");
   }
 }

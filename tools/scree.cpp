@@ -12,6 +12,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/key_reference.h"
+#include "engine/base/nearest.h"
 #include "engine/base/progress.h"
 #include "engine/base/threads.h"
 #include "engine/base/version.h"
@@ -92,6 +93,14 @@ int run(const Arguments& arguments) {
 int resume(const Arguments& arguments) {
   const RunFiles files{arguments.directory};
   scree::Progress progress(progress_mode(arguments));
+  if (std::error_code ignored; !std::filesystem::exists(files.scene(), ignored)) {
+    scree::Problem problem;
+    problem.key = "directory";
+    problem.value = arguments.directory;
+    problem.rule = "must be that of a run, which holds its scene.yaml";
+    problem.suggestion = "A run that ended before it had one left nothing to go on from: run its scene again";
+    throw scree::InputError(problem);
+  }
   const scree::Scene scene = read_scene(files.scene().string(), arguments, progress);
   return scree::run::run_scene(scene, files, scree::run::Start::resume, progress, space_errors(arguments));
 }
@@ -116,11 +125,24 @@ int check(const Arguments& arguments) {
   return 0;
 }
 
+std::string keys_that_begin_with(const std::string& prefix) {
+  const std::string text = scree::key_reference(scree::scene_keys(), prefix);
+  if (!text.empty()) return text;
+  std::vector<std::string> known;
+  for (const scree::Key& key : scree::scene_keys().keys()) known.push_back(key.path);
+  scree::Problem problem;
+  problem.key = "prefix";
+  problem.value = prefix;
+  problem.rule = "must begin a key of a scene";
+  if (const auto close = scree::nearest(prefix, known)) problem.suggestion = fmt::format("Did you mean {}?", *close);
+  throw scree::InputError(problem);
+}
+
 // What the program knows of itself: its keys and its options.
 void print_reference(const CLI::App& app, const Arguments& arguments) {
   const auto commands = scree::command_line::command_table(app);
   std::string text;
-  if (app.got_subcommand("keys")) text = scree::key_reference(scree::scene_keys(), arguments.prefix);
+  if (app.got_subcommand("keys")) text = keys_that_begin_with(arguments.prefix);
   if (app.got_subcommand("schema")) text = scree::key_schema(scree::scene_keys(), "Scree scene");
   if (app.got_subcommand("manual")) text = scree::command_line::manual(commands, std::string(scree::version()));
   if (app.got_subcommand("completion")) {

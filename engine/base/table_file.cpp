@@ -151,11 +151,16 @@ class Reader {
 }  // namespace
 
 ReadTable read_table(const std::filesystem::path& file, const std::vector<Argument>& arguments, const ValueRule& rule) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    const std::string why = std::filesystem::is_directory(file) ? "a folder" : std::strerror(errno);
+  const auto refuse = [&](const std::string& why) {
     throw InputError(rule.problem(file.string(), fmt::format("the table cannot be read: {}", why)));
-  }
+  };
+  // A pipe would be waited for, and a device may have no end.
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (std::filesystem::is_directory(status)) refuse("a folder");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) refuse("no regular file");
+  std::ifstream stream(file);
+  if (!stream) refuse(std::strerror(errno));
   return Reader(file, arguments, rule).read(stream);
 }
 

@@ -8,7 +8,7 @@
 
 namespace scree::output {
 
-// Throws std::runtime_error with VTK's reason if the file cannot be read.
+// Its cells have the nodes that their types ask for. Throws std::runtime_error with the reason if the file cannot be read.
 vtkSmartPointer<vtkUnstructuredGrid> open_vtu(const std::filesystem::path& file);
 
 }  // namespace scree::output

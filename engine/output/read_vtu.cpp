@@ -1,17 +1,11 @@
 #include "engine/output/read_vtu.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellTypes.h>
-#include <vtkCommand.h>
-#include <vtkExecutive.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include "engine/output/open_vtu.h"
 #include "engine/output/vtk_room.h"
@@ -19,16 +13,6 @@
 namespace scree::output {
 
 namespace {
-
-// VTK tells its errors to observers; without one it prints them.
-void keep_first_error(vtkObject*, unsigned long, void* kept, void* message) {
-  auto& reason = *static_cast<std::string*>(kept);
-  if (!reason.empty() || message == nullptr) return;
-  reason = static_cast<const char*>(message);
-  // "ERROR: In FILE, line N\nCLASS (ADDRESS): WORDS\n\n"
-  if (const auto words = reason.find("): "); words != std::string::npos) reason.erase(0, words + 3);
-  while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
-}
 
 std::string vtk_name(int type) {
   const std::string name = vtkCellTypes::GetClassNameFromTypeId(type);
@@ -52,10 +36,6 @@ void add_cell(vtkUnstructuredGrid& grid, vtkIdType c, mesh::RawMesh& raw) {
   vtkIdType size = 0;
   const vtkIdType* nodes = nullptr;
   grid.GetCellPoints(c, size, nodes);
-  for (vtkIdType i = 0; i < size; ++i) {
-    if (nodes[i] < 0 || nodes[i] >= grid.GetNumberOfPoints())
-      throw std::runtime_error("an element uses a point that is not there");
-  }
   const auto number = static_cast<std::size_t>(c);
   switch (const int type = grid.GetCellType(c); type) {
     case VTK_TETRA:
@@ -83,24 +63,6 @@ void add_cell(vtkUnstructuredGrid& grid, vtkIdType c, mesh::RawMesh& raw) {
 }
 
 }  // namespace
-
-vtkSmartPointer<vtkUnstructuredGrid> open_vtu(const std::filesystem::path& file) {
-  std::string reason;
-  vtkNew<vtkCallbackCommand> on_error;
-  on_error->SetCallback(keep_first_error);
-  on_error->SetClientData(&reason);
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, on_error);
-  reader->AddObserver(vtkCommand::WarningEvent, on_error);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, on_error);
-  reader->SetParserErrorObserver(on_error);
-  reader->SetReaderErrorObserver(on_error);
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  if (!reason.empty()) throw std::runtime_error(reason);
-  if (reader->GetErrorCode() != 0) throw std::runtime_error("VTK cannot read it");
-  return reader->GetOutput();
-}
 
 mesh::RawMesh vtk::read_vtu(const std::filesystem::path& file) {
   const vtkSmartPointer<vtkUnstructuredGrid> opened = open_vtu(file);

@@ -42,8 +42,12 @@ SeriesEntry choose_frame(const Picture& picture) {
   const double first = entries.front().time, last = entries.back().time;
   const double interval = (last - first) / std::max(1.0, static_cast<double>(entries.size()) - 1);
   if (*picture.time < first - interval || *picture.time > last + interval) {
-    throw RunError(fmt::format("{}: has frames from {:g} to {:g} s, none near {:g} s", picture.series.string(), first, last,
-                               *picture.time));
+    Problem problem;
+    problem.where.file = picture.series.string();
+    problem.key = "time";
+    problem.value = fmt::format("{:g} s", *picture.time);
+    problem.rule = fmt::format("must be near a frame; there are some from {:g} to {:g} s", first, last);
+    throw InputError(problem);
   }
   return *std::min_element(entries.begin(), entries.end(), [&](const SeriesEntry& a, const SeriesEntry& b) {
     return std::abs(a.time - *picture.time) < std::abs(b.time - *picture.time);

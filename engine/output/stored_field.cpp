@@ -180,6 +180,7 @@ NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& me
     throw InputError(
         stored.problem(stored.from.string(), "must have a point array temperature, in K", "Name a frame of a run with heat"));
   }
+  if (grid->GetNumberOfCells() == 0) throw InputError(stored.problem(stored.from.string(), "must have cells", ""));
   const auto size = static_cast<Eigen::Index>(mesh.nodes.size());
   NodalField field;
   field.values = Eigen::VectorXd::Zero(size);

@@ -2,6 +2,8 @@
 // itself would read a flipped bit back without a word.
 #include <algorithm>
 #include <array>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -282,6 +284,10 @@ Packing<dim> read(const std::filesystem::path& file) {
     if (digest(key, lists) == text_attribute(in, "digest")) return unpack<dim>(lists, key);
   } catch (const H5::Exception&) {
     // said below, in words that help
+  } catch (const std::logic_error&) {
+    // a text that is not there, or a list longer than any
+  } catch (const std::bad_alloc&) {
+    // a list longer than memory
   }
   throw refusal(file, "damaged", "must be a whole packing", "Delete it and settle the scene again");
 }

@@ -224,6 +224,12 @@ void place(const mesh::ConvexPiece& piece, const Eigen::Matrix3d& rotation, cons
   }
 }
 
+PlacedPiece shifted(PlacedPiece piece, const Vector3d& by) {
+  for (Vector3d& vertex : piece.vertices) vertex += by;
+  for (std::size_t f = 0; f < piece.normals.size(); ++f) piece.by_fours[place_of(f) + 3 * four] += piece.normals[f].dot(by);
+  return piece;
+}
+
 Separation separation(const PlacedPiece& first, const PlacedPiece& second, double enough, double face_bias) {
   return best_separation(first, second, enough, face_bias, [](const Separation&) { return true; });
 }

@@ -22,6 +22,8 @@ PlacedPiece placed(const mesh::ConvexPiece& piece, const Pose& pose);
 void place(const mesh::ConvexPiece& piece, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
            PlacedPiece& result);
 
+PlacedPiece shifted(PlacedPiece piece, const Eigen::Vector3d& by);
+
 // The plane that parts two pieces best, or through which the deeper is pushed out soonest.
 struct Separation {
   enum class Feature { face_of_first, face_of_second, edges };

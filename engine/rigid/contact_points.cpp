@@ -75,9 +75,22 @@ bool is_over(const PlacedPiece& piece, std::int32_t face, const Vector3d& point)
   return true;
 }
 
-// Points of `incident` against a face of `reference`, whose points come first.
+// Of a polygon that is much longer than wide; less of others.
+double width(const Polygon& polygon) {
+  Vector3d twice_area = Vector3d::Zero();
+  double length = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d& next = polygon[(i + 1) % polygon.size()];
+    length += 0.5 * (next - polygon[i]).norm();
+    twice_area += (polygon[i] - polygon[0]).cross(next - polygon[0]);
+  }
+  return length > 0 ? 0.5 * twice_area.norm() / length : 0;
+}
+
+// Points of `incident` against a face of `reference`, `apart` from it; the reference's points come first.
 std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t face, const PlacedPiece& incident,
-                                      double range, double clearance) {
+                                      double apart, const ContactReach& reach) {
+  const auto [range, clearance, rim_width] = reach;
   const Vector3d& normal = reference.normals[face];
   const auto& rim = reference.piece->faces[face].corners;
   Polygon polygon;
@@ -92,6 +105,9 @@ std::vector<ContactPoint> face_points(const PlacedPiece& reference, std::int32_t
     clip(polygon, scratch, from, (to - from).cross(normal));
   }
   std::vector<ContactPoint> points;
+  // A clearance keeps what lies flush apart already, and is kept by all.
+  const double least_apart = clearance > 0 ? clearance : -rim_width;
+  if (!polygon.empty() && apart > least_apart && width(polygon) < rim_width) return points;
   for (const Vector3d& point : polygon) {
     const double distance = normal.dot(point - reference.vertices[rim[0]]);
     if (distance <= range) points.push_back({point - distance * normal, point, distance});
@@ -130,16 +146,16 @@ ContactPoint edge_point(const PlacedPiece& first, const PlacedPiece& second, con
 
 }  // namespace
 
-ContactPoints contact_points(const PlacedPiece& first, const PlacedPiece& second, const Separation& separation, double range,
-                             double clearance) {
+ContactPoints contact_points(const PlacedPiece& first, const PlacedPiece& second, const Separation& separation,
+                             const ContactReach& reach) {
   ContactPoints result;
   if (separation.feature == Separation::Feature::edges) {
     result.points[result.count++] = edge_point(first, second, separation);
     return result;
   }
   const bool of_first = separation.feature == Separation::Feature::face_of_first;
-  for (ContactPoint point : of_first ? face_points(first, separation.of_first, second, range, clearance)
-                                     : face_points(second, separation.of_second, first, range, clearance)) {
+  for (ContactPoint point : of_first ? face_points(first, separation.of_first, second, separation.distance, reach)
+                                     : face_points(second, separation.of_second, first, separation.distance, reach)) {
     if (!of_first) std::swap(point.on_first, point.on_second);
     result.points[result.count++] = point;
   }

@@ -4,10 +4,9 @@
 #include <array>
 #include <numeric>
 
-#include <LinearMath/btTransformUtil.h>
-
 #include "engine/base/phases.h"
 #include "engine/rigid/fetch.h"
+#include "engine/rigid/free_rotation.h"
 #include "engine/rigid/polyhedron_shape.h"
 
 namespace scree::rigid {
@@ -148,6 +147,7 @@ void ContactSolver::finish(const std::vector<btRigidBody*>& bodies, Contacts con
       if (!moves({static_cast<int>(i), -1})) continue;
       bodies[i]->setLinearVelocity(to_bullet(starts_[i].linear + changes_[i].linear));
       bodies[i]->setAngularVelocity(to_bullet(starts_[i].angular + changes_[i].angular));
+      starts_[i].momentum += momentum_of(*bodies[i], changes_[i].angular);
     }
   });
   touches_.resize(entries_.size());
@@ -204,10 +204,8 @@ void ContactSolver::undo_overlaps(const std::vector<btRigidBody*>& bodies, const
   for_short_chunks(bodies.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       if (changes_[i].linear.isZero(0) && changes_[i].angular.isZero(0)) continue;
-      btTransform moved;
-      btTransformUtil::integrateTransform(bodies[i]->getWorldTransform(), to_bullet(changes_[i].linear),
-                                          to_bullet(changes_[i].angular) * overlap_turn, step.time_step, moved);
-      bodies[i]->setWorldTransform(moved);
+      bodies[i]->setWorldTransform(moved(bodies[i]->getWorldTransform(), to_bullet(changes_[i].linear),
+                                         to_bullet(changes_[i].angular) * overlap_turn, step.time_step));
     }
   });
 }

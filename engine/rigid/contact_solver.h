@@ -30,11 +30,14 @@ class ContactSolver {
     const HeldContact* of = nullptr;
   };
 
-  // Gives the bodies their velocities after the step and the points their impulses, and takes overlaps apart; other blocks are
-  // fixed, and so are those that sleep. The same bits for any number of threads. `motions` are those of all blocks; the bodies'
-  // user indices are their blocks.
+  // Gives the bodies the velocities by which the step moves them and the points their impulses, and takes overlaps apart; other
+  // blocks are fixed, and so are those that sleep. The same bits for any number of threads. `motions` are those of all blocks;
+  // the bodies' user indices are their blocks.
   void solve(const std::vector<btRigidBody*>& bodies, const Sleepers& sleepers, Motions motions, Contacts contacts,
              const StepLengths& step, int iterations);
+
+  // Angular, of a body by its place among the bodies, after the last step [kg m2/s].
+  [[nodiscard]] const Eigen::Vector3d& momentum(std::size_t body) const { return starts_[body].momentum; }
 
   // Of the last step, one per contact.
   [[nodiscard]] std::span<const Touch> touches() const { return touches_; }

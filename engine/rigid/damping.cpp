@@ -33,9 +33,12 @@ void Damping::slow_down(const World& world, double local, double viscous, double
   const double kept = 1 - viscous * time_step;
   for_short_chunks(world.free_blocks().size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      if (world.asleep(world.free_blocks()[i])) continue;
-      btRigidBody& body = *world.free_bodies()[i];
       Motion& motion = motions_[world.free_blocks()[i].index()];
+      if (world.asleep(world.free_blocks()[i])) {
+        motion.velocity = motion.rotation = Eigen::Vector3d::Zero();  // from which it wakes
+        continue;
+      }
+      btRigidBody& body = *world.free_bodies()[i];
       motion.velocity = from_bullet(body.getLinearVelocity());
       motion.rotation = from_bullet(body.getAngularVelocity());
       if (local > 0) {

@@ -59,10 +59,14 @@ std::int64_t skip_free_fall(World& world, const mesh::BlockMesh<3>& mesh, const 
     scene.extend(box);
   }
   const double clearance = 1e-3 * scene.diagonal().norm();
+  // On the whole of its way there from the step before, which may be longer than what is in it.
   const auto clear_after = [&](std::int64_t steps) {
-    const Eigen::Vector3d way = fallen(*start, options, static_cast<double>(steps) * options.step).way;
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(clearance);
-    const Aabb<3> box(moving.min() + way - margin, moving.max() + way + margin);
+    Aabb<3> box;
+    for (const std::int64_t step : {steps - 1, steps}) {
+      const Eigen::Vector3d way = fallen(*start, options, static_cast<double>(step) * options.step).way;
+      box.extend(Aabb<3>(moving.min() + way - margin, moving.max() + way + margin));
+    }
     bool clear = box.intersects(scene);
     for (const Aabb<3>& obstacle : fixed) clear = clear && !box.intersects(obstacle);
     return clear;

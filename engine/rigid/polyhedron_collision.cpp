@@ -142,7 +142,50 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
     if (none && separation_.distance > -ranges_.near) return {};
     if (!none) separation_ = real;
   }
-  return contact_points(a, b, separation_, pair.reach, ranges_.clearance);
+  const ContactPoints points = points_at(pair, a, b, separation_, pair.reach);
+  return points.count == 0 && separation_.distance > ranges_.clearance ? met_on_the_way(pair, a, b) : points;
+}
+
+ContactPoints PolyhedronCollision::points_at(const Pair& pair, const PlacedPiece& first, const PlacedPiece& second,
+                                             const packing::Separation& at, double range) const {
+  constexpr double rim = 5e-4;  // of the radius of the smaller one: more than blocks at rest are deep in each other
+  return contact_points(first, second, at, {range, ranges_.clearance, rim * std::min(pair.first.radius, pair.second.radius)});
+}
+
+// Two blocks whose faces are not over each other yet may be past each other when the step ends, if it takes them as far as
+// their size. They are looked at where the first one has come to touch the second on its way, and what is found there is said
+// of where they are now. Turns are left out.
+ContactPoints PolyhedronCollision::met_on_the_way(const Pair& pair, const PlacedPiece& first, const PlacedPiece& second) {
+  constexpr double long_way = 0.5;  // of the radius of the smaller one
+  constexpr double between = 0.25;  // two looks, likewise
+  constexpr double most_looks = 200;
+  constexpr int halvings = 4;  // of what is between two looks: the two are a sixtieth of the radius deep in each other then
+  const Eigen::Vector3d way = pair.time_step * from_bullet(pair.first.block->velocity - pair.second.block->velocity);
+  const double size = std::min(pair.first.radius, pair.second.radius);
+  if (way.norm() < long_way * size) return {};
+  const double step = 1 / std::min(most_looks, std::ceil(way.norm() / (between * size)));
+  const auto meets = [&](double part) {
+    return packing::separation(packing::shifted(first, part * way), second, 0, ranges_.face_bias).distance <= 0;
+  };
+  double part = step;
+  while (part <= 1 + 0.5 * step && !meets(part)) part += step;
+  if (part > 1 + 0.5 * step) return {};
+  double half = 0.5 * step;
+  for (int halving = 0; halving < halvings; ++halving, half *= 0.5) {
+    if (meets(part - half)) part -= half;
+  }
+  const PlacedPiece there = packing::shifted(first, part * way);
+  packing::Separation met = packing::separation(there, second, std::numeric_limits<double>::infinity(), ranges_.face_bias);
+  if (only_surfaces_ && !on_surfaces(pair, met)) return {};
+  ContactPoints points = points_at(pair, there, second, met, ranges_.near);
+  const double closes = met.normal.dot(part * way);
+  for (int i = 0; i < points.count; ++i) {
+    points.points[i].on_first -= part * way;
+    points.points[i].distance += closes;
+  }
+  met.distance += closes;
+  if (points.count > 0) separation_ = met;
+  return points;
 }
 
 void PolyhedronCollision::take(const Pair& pair, const ContactPoints& points) {

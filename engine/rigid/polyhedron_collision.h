@@ -62,6 +62,10 @@ class PolyhedronCollision final : public OwnCollision {
  private:
   [[nodiscard]] bool may_bounce(const Pair& pair) const;
   [[nodiscard]] bool on_surfaces(const Pair& pair, const packing::Separation& at) const;
+  [[nodiscard]] ContactPoints points_at(const Pair& pair, const packing::PlacedPiece& first, const packing::PlacedPiece& second,
+                                        const packing::Separation& at, double range) const;
+  [[nodiscard]] ContactPoints met_on_the_way(const Pair& pair, const packing::PlacedPiece& first,
+                                             const packing::PlacedPiece& second);
   void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;
   void inherit_impulses(std::span<const HeldPoint> old, double near);
   void drop_contact();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/rigid/free_rotation.h"
 #include "engine/rigid/polyhedron_shape.h"
 
 namespace scree::rigid {
@@ -55,7 +56,9 @@ BodyStart start_of(const btRigidBody& body, double time_step) {
   start.inverse_mass = body.getInvMass();
   start.inverse_inertia = from_bullet(body.getInvInertiaTensorWorld());
   start.linear = from_bullet(body.getLinearVelocity() + body.getGravity() * time_step);
-  start.angular = from_bullet(body.getAngularVelocity() + body.computeGyroscopicImpulseImplicit_Body(time_step));
+  const FreeRotation rotation = free_rotation(body, time_step);
+  start.angular = rotation.mean;
+  start.momentum = rotation.momentum;
   return start;
 }
 

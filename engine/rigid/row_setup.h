@@ -12,8 +12,9 @@ namespace scree::rigid {
 // A body as it enters a step.
 struct BodyStart {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // [m]
-  // With what gravity and its own spin add to them in the step [m/s], [1/s].
+  // With what gravity adds in the step, and the mean over the step of what the body turns by itself [m/s], [1/s].
   Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();         // angular, about the centre [kg m2/s]
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  // world axes [1/(kg m2)]
   double inverse_mass = 0;                                    // [1/kg]
   const btRigidBody* body = nullptr;

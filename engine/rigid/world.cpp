@@ -16,6 +16,7 @@
 #include "engine/rigid/collision_configuration.h"
 #include "engine/rigid/contact_solver.h"
 #include "engine/rigid/dispatcher.h"
+#include "engine/rigid/free_rotation.h"
 #include "engine/rigid/mass_properties.h"
 #include "engine/rigid/pair_cache.h"
 #include "engine/rigid/polyhedron_collision.h"
@@ -31,7 +32,7 @@ namespace {
 // Part of an overlap that is undone in a step.
 constexpr double overlap_undone = 0.2;
 
-mesh::ConvexPiece moved(mesh::ConvexPiece piece, const Pose& by) {
+mesh::ConvexPiece placed_by(const Pose& by, mesh::ConvexPiece piece) {
   for (auto& vertex : piece.vertices) vertex = by * vertex;
   for (auto& face : piece.faces) face.normal = by.rotation * face.normal;
   for (auto& edge : piece.edges) {
@@ -135,7 +136,7 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
     inertia = to_bullet(properties.inertia);
   }
   for (mesh::ConvexPiece& piece : mesh::convex_pieces(mesh, block)) {
-    item.pieces.push_back(std::make_unique<PolyhedronShape>(moved(std::move(piece), inverse(item.frame))));
+    item.pieces.push_back(std::make_unique<PolyhedronShape>(placed_by(inverse(item.frame), std::move(piece))));
   }
   btCollisionShape* shape = item.pieces.front().get();
   if (item.pieces.size() > 1) {
@@ -211,7 +212,8 @@ void World::step(double time_step, int iterations) {
       if (asleep(free_[i])) continue;
       bullet_->observe(body);
       bullet_->homes.look(body, items_[body.getUserIndex()].radius, time_step);
-      body.predictIntegratedTransform(time_step, body.getInterpolationWorldTransform());
+      body.setInterpolationWorldTransform(
+          moved(body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity(), time_step));
     }
   });
   find_contacts(time_step);
@@ -221,9 +223,10 @@ void World::step(double time_step, int iterations) {
   for_short_chunks(free_bodies_.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       if (asleep(free_[i])) continue;
-      btTransform next;
-      free_bodies_[i]->predictIntegratedTransform(time_step, next);
-      free_bodies_[i]->proceedToTransform(next);
+      btRigidBody& body = *free_bodies_[i];
+      body.proceedToTransform(moved(body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity(), time_step));
+      // The momentum is what stays where the body's axes have turned.
+      body.setAngularVelocity(body.getInvInertiaTensorWorld() * to_bullet(bullet_->solver.momentum(i)));
     }
   });
 }

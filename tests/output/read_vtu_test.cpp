@@ -125,5 +125,34 @@ TEST_F(ReadVtu, ADamagedFileIsRefusedWithoutAWordFromVtk) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+// What VTK's writer would not write, and its reader takes at its word.
+TEST_F(ReadVtu, CellsWithoutTheirNodesAreRefused) {
+  testing::internal::CaptureStderr();
+  const auto with_cell = [&](const char* type, const char* nodes, int count) {
+    std::ofstream(file()) << R"(<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">)"
+                          << nodes << R"(</DataArray><DataArray type="Int64" Name="offsets" format="ascii">)" << count
+                          << R"(</DataArray><DataArray type="UInt8" Name="types" format="ascii">)" << type
+                          << "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+  };
+  with_cell("10", "0 1 2 3", 4);
+  EXPECT_EQ(refusal(), "");
+  with_cell("10", "0 1 2", 3);
+  EXPECT_THAT(refusal(), HasSubstr("element 0 has 3 nodes instead of 4"));
+  with_cell("12", "0 1 2 3", 4);
+  EXPECT_THAT(refusal(), HasSubstr("element 0 has 4 nodes instead of 8"));
+  for (const char* nodes : {"0 1 2 4", "0 1 2 99999999", "0 1 2 -5"}) {
+    with_cell("10", nodes, 4);
+    EXPECT_THAT(refusal(), HasSubstr("element 0 uses a point that is not there")) << nodes;
+  }
+  for (const char* type : {"42", "99"}) {
+    with_cell(type, "0 1 2 3", 4);
+    EXPECT_THAT(refusal(), HasSubstr("which cannot be used")) << type;
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 }  // namespace
 }  // namespace scree::output

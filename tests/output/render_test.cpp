@@ -80,7 +80,7 @@ TEST_F(RenderTest, DrawsTheNearestFrameAndLeavesTheCallersDisplayAsItWas) {
 TEST_F(RenderTest, ATimeBeyondTheSeriesIsAnError) {
   for (const double time : {-1e9, 1e9}) {
     picture_.time = time;
-    EXPECT_THROW(render(picture_, png_), RunError);
+    EXPECT_THROW(render(picture_, png_), InputError);
   }
   EXPECT_FALSE(std::filesystem::exists(png_));
 }

@@ -177,6 +177,27 @@ TEST_F(PackingFile, TheKeyIsReadAlone) {
   EXPECT_EQ(stored_key(file()), std::nullopt);
 }
 
+// Of which C++ would make errors of its own.
+TEST_F(PackingFile, TextsThatAreNotThereAndListsLongerThanMemoryAreDamage) {
+  const auto refusal_with_empty = [&](const char* list, const H5::DataType& type, hsize_t size) {
+    write(awkward_packing<3>(), file());
+    {
+      H5::H5File damaged(file().string(), H5F_ACC_RDWR);
+      damaged.unlink(list);
+      damaged.createDataSet(list, type, H5::DataSpace(1, &size));
+    }
+    try {
+      read<3>(file());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
+  EXPECT_THAT(refusal_with_empty("texts", text, 3), HasSubstr("damaged (must be a whole packing)"));
+  EXPECT_THAT(refusal_with_empty("nodes", H5::PredType::NATIVE_DOUBLE, hsize_t{1} << 50), HasSubstr("damaged"));
+}
+
 TEST_F(PackingFile, AMissingFileIsNamed) {
   EXPECT_EQ(refusal<3>(file()), file().string() + ": packing (no such file). Check its path, or settle the scene again");
 }

@@ -47,7 +47,7 @@ Missed missed(double known_clearance) {
     const Separation at = packing::separation(a, b, 1e300, face_bias);
     if (at.distance <= 0 || at.distance >= clearance) continue;
     ++found.pairs;
-    const ContactPoints points = contact_points(a, b, at, 1.1 * clearance, known_clearance);
+    const ContactPoints points = contact_points(a, b, at, {1.1 * clearance, known_clearance, 0});
     found.none += points.count == 0;
     const auto* end = points.points.begin() + points.count;
     found.beside += std::none_of(points.points.begin(), end, [](const ContactPoint& p) { return p.distance < clearance; });

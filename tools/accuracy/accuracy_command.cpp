@@ -17,6 +17,7 @@
 #include "tools/accuracy/report.h"
 #include "tools/run/child_process.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/output_place.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/read_scene.h"
 
@@ -209,7 +210,7 @@ int run(const Arguments& arguments) {
   }
   const fs::path directory = arguments.directory.empty() ? fs::path("out") / (scene.file.stem().string() + "-accuracy")
                                                          : fs::path(arguments.directory);
-  fs::create_directories(directory);
+  run::make_output_folder(directory);
   // Of an earlier call: whoever finds them must not take them for what an interrupted one has found.
   for (const char* earlier : {table_name, picture_name}) fs::remove(directory / earlier);
 

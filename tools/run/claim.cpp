@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "tools/run/output_place.h"
 
 namespace scree::run {
 
@@ -24,10 +25,7 @@ std::vector<fs::path> missing(const fs::path& directory) {
 }  // namespace
 
 Claim::Claim(const RunFiles& files) : made_(missing(files.directory)) {
-  std::error_code error;
-  fs::create_directories(files.directory, error);
-  if (error)
-    throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
+  make_output_folder(files.directory);
   if (!fs::exists(files.lock())) made_.insert(made_.begin(), files.lock());
   lock_ = FileLock::take(files.lock(), FileLock::Kind::exclusive, FileLock::Heirs::none);
   if (!lock_) throw RunError(fmt::format("{}: another run writes there. Choose another --out", files.directory.string()));

@@ -25,7 +25,7 @@ struct HeatOutcome {
   std::map<std::pair<BodyId, BodyId>, double> overlap_areas;
   std::vector<CoveredBoundary> covered;
   std::string solver;
-  std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, over all times [K]
+  std::optional<double> exact_error;  // largest of all probes whose exact temperature the scene names, after the start [K]
   std::optional<thermal::SpaceError> space_error;                // at the end, if the user asks for it
   std::optional<thermal::EffectiveConductivity<dim>> effective;  // if the scene asks for it
 };

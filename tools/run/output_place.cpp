@@ -25,4 +25,10 @@ void check_output_place(const std::string& option, const std::filesystem::path& 
   throw InputError(problem);
 }
 
+void make_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", folder.string(), error.message()));
+}
+
 }  // namespace scree::run

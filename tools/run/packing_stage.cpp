@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -78,12 +79,24 @@ packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks
   return rigid::settle(blocks, context.scene.materials, stage.options, frame, progress);
 }
 
+// Of the same blocks and the same fall; nothing if it is damaged.
+std::optional<packing::Packing<3>> earlier_packing(RunContext& context) {
+  const std::string file = context.files.packing().string();
+  try {
+    auto earlier = packing::read<3>(context.files.packing());
+    context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", file));
+    return earlier;
+  } catch (const InputError&) {
+    context.progress.note(fmt::format("settle: {} is damaged; the blocks fall again", file));
+    return std::nullopt;
+  }
+}
+
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   check_clearance(context.scene, blocks);
   check_heat(context.scene, blocks);
   if (packing::stored_key(context.files.packing()) == key) {
-    context.progress.note(fmt::format("settle: nothing it depends on has changed; using {}", context.files.packing().string()));
-    return {packing::read<3>(context.files.packing()), true};
+    if (auto earlier = earlier_packing(context)) return {*std::move(earlier), true};
   }
   std::error_code ignored;
   std::filesystem::remove(context.files.packing(), ignored);  // of another scene

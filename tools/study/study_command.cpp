@@ -13,6 +13,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/threads.h"
 #include "tools/run/interrupt.h"
+#include "tools/run/output_place.h"
 #include "tools/study/batch.h"
 #include "tools/study/conductor.h"
 #include "tools/study/ensembles.h"
@@ -227,11 +228,7 @@ int run(const Arguments& arguments) {
   }
   if (arguments.list) return list(runs);
   const StudyFiles files{directory_of(arguments)};
-  std::error_code error;
-  for (const char* folder : {"runs", "packings"}) fs::create_directories(files.directory / folder, error);
-  if (error) {
-    throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", files.directory.string(), error.message()));
-  }
+  for (const char* folder : {"runs", "packings"}) run::make_output_folder(files.directory / folder);
   run::catch_interrupts();
   try {
     return dispatch(arguments, study, runs, files);

@@ -1,0 +1,85 @@
+// Blocks that slide, fall and fly past each other.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/rigid/blocks.h"
+
+namespace scree::rigid {
+namespace {
+
+using Eigen::Vector3d;
+using testing::add_box;
+using testing::for_time;
+using testing::g;
+using testing::material;
+
+// Tops level with each other: the side of the next plate is no obstacle, wherever in its step the block comes upon it.
+TEST(Passing, ABlockSlidesOverTheSeamOfTwoPlatesAsOverOne) {
+  for (const double friction : {0.0, 0.5}) {
+    for (int phase = 0; phase < 10; ++phase) {
+      mesh::BlockMesh<3> mesh;
+      for (const double x : {-1.0, 1.0}) add_box(mesh, {2, 2, 0.1}, {x, 0, -0.05}, true);
+      const double start = -0.2 - 0.00125 * phase;
+      const BlockId block = add_box(mesh, {0.1, 0.1, 0.02}, {start, 0, 0.01}, false, {3, 0, 0});
+      const Pose pose = settle(mesh, material(friction), for_time(0.25)).poses[block];
+      const double way = 3 * 0.25 - 0.5 * friction * g * 0.25 * 0.25;
+      EXPECT_NEAR(pose.translation.x(), way, friction > 0 ? 3.0 / 240 : 1e-7) << phase;
+      EXPECT_LT(pose.translation.tail<2>().norm(), 1e-6);
+      EXPECT_LT(pose.rotation.vec().norm(), 1e-5);
+    }
+  }
+}
+
+// Of blocks that are free themselves.
+TEST(Passing, ABlockSlidesOverAPavementOfBlocks) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 1, 0.1}, {0, 0, -0.05}, true);
+  for (int i = 0; i < 8; ++i) add_box(mesh, {0.25, 0.25, 0.25}, {-0.875 + 0.25 * i, 0, 0.125}, false);
+  const BlockId block = add_box(mesh, {0.1, 0.1, 0.02}, {-0.6, 0, 0.26}, false, {1, 0, 0});
+  EXPECT_NEAR(settle(mesh, material(0), for_time(1)).poses[block].translation.x(), 1, 1e-3);
+}
+
+// A ledge that is no rounding stops it.
+TEST(Passing, ABlockIsStoppedByAStep) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {2, 2, 0.1}, {-1, 0, -0.05}, true);
+  add_box(mesh, {2, 2, 0.1}, {1, 0, -0.04}, true);
+  const BlockId block = add_box(mesh, {0.1, 0.1, 0.02}, {-0.2, 0, 0.01}, false, {3, 0, 0});
+  EXPECT_LT(settle(mesh, material(0), for_time(0.25)).poses[block].translation.x(), 0.151);
+}
+
+// In closed form, in steps that are longer than the shelf is thick.
+TEST(Passing, NothingFallsThroughAShelfAfterALongFall) {
+  for (const double height : {2.0, 5.0, 5.03, 8.0, 20.0}) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {1, 1, 0.1}, {0, 0, -2.05}, true);
+    add_box(mesh, {0.1, 0.1, 0.002}, {0, 0, -0.001}, true);
+    const BlockId block = add_box(mesh, {0.01, 0.01, 0.01}, {0, 0, height + 0.005}, false);
+    const auto packing = settle(mesh, material(0.5), for_time(std::sqrt(2 * height / g) + 0.1));
+    EXPECT_NEAR(packing.poses[block].translation.z(), -height, 1e-3) << height;
+  }
+}
+
+// At three sizes a step, in any attitude: whatever hits leaves its path, or the run says how deep it was.
+TEST(Passing, NothingFliesThroughABlockUnseen) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(-1, 1);
+  for (int i = 0; i < 200; ++i) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {1, 1, 0.1}, {0, 0, -1}, true);
+    add_box(mesh, {0.005, 0.005, 0.005}, {0, 0, 0}, true);
+    const Pose start{{0.002 * part(random), 0.002 * part(random), 0.03 + 0.01 * part(random)},
+                     Eigen::Quaterniond(part(random), part(random), part(random), part(random)).normalized()};
+    const Vector3d velocity = 4 * Vector3d(0.05 * part(random), 0.05 * part(random), -1).normalized();
+    const BlockId block = add_box(mesh, {0.005, 0.005, 0.005}, start, false, velocity);
+    const auto packing = settle(mesh, material(0.5), for_time(8.0 / 240));
+    const double turned = packing.poses[block].rotation.vec().norm();
+    const bool flew_on = turned < 1e-9 && std::abs(packing.poses[block].translation.z() + 4.0 * 8 / 240) < 0.007;
+    EXPECT_FALSE(flew_on && packing.settled->deepest_overlap < 0.5) << i;
+  }
+}
+
+}  // namespace
+}  // namespace scree::rigid
