@@ -127,22 +127,6 @@ TEST(ContactSet, MovesWithTheWhole) {
   move<3>();
 }
 
-// The side of a cube that stands on another one neither looks at its top nor away from it.
-TEST(FindContacts, OfFacesAtRightAnglesDoNotDependOnHowTheWholeIsTurned) {
-  const auto mesh = mesh_of<3>({box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(1, 0.3, 0), at(1, 1, 1))});
-  const auto upright = find_contacts<3>(mesh, {});
-  ASSERT_GT(upright.contacts.size(), 5);
-  std::mt19937 random(41);
-  std::normal_distribution<double> component;
-  for (int turn = 0; turn < 100; ++turn) {
-    const auto rotation =
-        Eigen::Quaterniond(component(random), component(random), component(random), component(random)).normalized();
-    auto turned = mesh;
-    for (const NodeId node : mesh.nodes.ids()) turned.nodes[node] = rotation * mesh.nodes[node];
-    EXPECT_EQ(find_contacts<3>(turned, {}).contacts.size(), upright.contacts.size());
-  }
-}
-
 TEST(FindContacts, DoNotDependOnTheNumberOfThreads) {
   std::mt19937 random(29);
   const auto mesh = each_its_own<3>(random_simplices<3>(3000, 4, 0.4, random));
