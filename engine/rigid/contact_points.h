@@ -19,16 +19,16 @@ struct ContactPoints {
   int count = 0;
 };
 
-// The overlap of a face with the face turned most against it, clipped to that face's prism, or the nearest points of two edges;
-// points further apart than `range` [m] are left out. Of more than four, those that span the patch best are kept. Pieces closer
-// than `clearance` [m], at which they touch, have one at least. But faces that are over each other by less than `rim` [m], and
-// no deeper in each other than that, have none: of two blocks that lie flush beside each other, the side of one is no obstacle
-// to what slides over the other.
 struct ContactReach {
-  double range = 0;
-  double clearance = 0;
-  double rim = 0;
+  double range = 0;      // points further apart are left out [m]
+  double clearance = 0;  // at which two pieces touch [m]
+  double rim = 0;        // faces over each other by less have only their rims in common [m]
 };
+
+// The overlap of a face with the face turned most against it, clipped to that face's prism, or the nearest points of two edges;
+// of more than four, those that span the patch best are kept. Pieces closer than the clearance have one at least. But faces
+// that are over each other by less than the rim, and no deeper in each other than that, have none: of two blocks that lie flush
+// beside each other, the side of one is no obstacle to what slides over the other.
 ContactPoints contact_points(const packing::PlacedPiece& first, const packing::PlacedPiece& second,
                              const packing::Separation& separation, const ContactReach& reach);
 
