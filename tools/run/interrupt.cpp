@@ -8,9 +8,11 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void remember(int signal) {
+// A second one ends the process, whichever of the two it is.
+void remember(int) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
