@@ -19,13 +19,14 @@ struct Grid {
   std::vector<Eigen::Vector3d> points;     // [m]
   std::vector<CellType> types;             // of each cell
   std::vector<std::int32_t> connectivity;  // corners of cell 0, of cell 1, ...
+  bool to_look_at = false;                 // whether points within a millionth of its extent are enough
 };
 
 // Values at the points or cells of a grid; the name is what the user sees. Units go into the name's documentation, SI.
 struct Array {
   std::string name;
   int components = 1;
-  std::variant<std::vector<double>, std::vector<std::int32_t>> values;
+  std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>> values;
 };
 
 struct Frame {

@@ -4,12 +4,14 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <lz4.h>
+#include <Eigen/Geometry>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
@@ -72,6 +74,8 @@ constexpr const char* type_name = "UInt8";
 template <>
 constexpr const char* type_name<double> = "Float64";
 template <>
+constexpr const char* type_name<float> = "Float32";
+template <>
 constexpr const char* type_name<std::int32_t> = "Int32";
 
 template <class T>
@@ -84,6 +88,26 @@ void append_arrays(const std::vector<Array>& arrays, EncodedArrays& encoded) {
   for (const Array& array : arrays) {
     std::visit([&](const auto& values) { append_array(array.name, array.components, values.data(), values.size(), encoded); },
                array.values);
+  }
+}
+
+// Far from the origin, as in coordinates of a country's survey, single precision has too few digits for what is there.
+bool single_precision_is_enough(const Grid& grid) {
+  if (!grid.to_look_at) return false;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : grid.points) box.extend(point);
+  if (box.isEmpty()) return false;
+  const double furthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return furthest * 0.5 * std::numeric_limits<float>::epsilon() <= 1e-6 * box.diagonal().norm();
+}
+
+void append_points(const Grid& grid, EncodedArrays& encoded) {
+  const std::size_t count = 3 * grid.points.size();
+  const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
+  if (single_precision_is_enough(grid)) {
+    append_array("Points", 3, std::vector<float>(coordinates, coordinates + count).data(), count, encoded);
+  } else {
+    append_array("Points", 3, coordinates, count, encoded);
   }
 }
 
@@ -152,8 +176,7 @@ EncodedGrid encoded(const Grid& grid, const std::vector<Array>& cells) {
   SCREE_EXPECT(static_cast<std::size_t>(end) == grid.connectivity.size());
   EncodedGrid made{grid.points.size(), grid.types.size(), {}};
   make_room(grid, cells, made.arrays.bytes);
-  const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
-  append_array("Points", 3, coordinates, 3 * grid.points.size(), made.arrays);
+  append_points(grid, made.arrays);
   append_array("connectivity", 1, grid.connectivity.data(), grid.connectivity.size(), made.arrays);
   append_array("offsets", 1, ends.data(), ends.size(), made.arrays);
   append_array("types", 1, types.data(), types.size(), made.arrays);

@@ -13,6 +13,7 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -57,6 +58,7 @@ Frame frame_of(const mesh::BlockMesh<3>& mesh, double time) {
   frame.points.push_back({"temperature", 1, temperature});
   frame.cells.push_back({"heat_flux", 3, flux});
   frame.cells.push_back({"block", 1, block});
+  frame.cells.push_back({"heat_flow", 1, std::vector<float>(flux.begin(), flux.begin() + std::ssize(block))});
   return frame;
 }
 
@@ -73,8 +75,20 @@ double component(vtkDataArray& array, std::size_t value) {
   return array.GetComponent(index / components, static_cast<int>(index % components));
 }
 
+std::string vtk_type(double) {
+  return "double";
+}
+std::string vtk_type(float) {
+  return "float";
+}
+std::string vtk_type(std::int32_t) {
+  return "int";
+}
+
 void expect_equal(vtkDataArray* stored, const Array& written) {
   ASSERT_NE(stored, nullptr) << written.name;
+  EXPECT_EQ(stored->GetDataTypeAsString(),
+            std::visit([](const auto& values) { return vtk_type(values.front()); }, written.values));
   ASSERT_EQ(stored->GetNumberOfComponents(), written.components);
   std::visit(
       [&](const auto& values) {
@@ -142,7 +156,27 @@ TEST_F(SeriesTest, VtkReadsBackWhatWasWrittenToTheBit) {
   expect_equal(data->GetPointData()->GetArray("temperature"), written.points[0]);
   expect_equal(data->GetCellData()->GetArray("heat_flux"), written.cells[0]);
   expect_equal(data->GetCellData()->GetArray("block"), written.cells[1]);
+  expect_equal(data->GetCellData()->GetArray("heat_flow"), written.cells[2]);
   EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 1.0 / 3);
+}
+
+TEST_F(SeriesTest, PointsOfAGridToLookAtAreWithinAMillionthOfItsExtentWhereverItIs) {
+  grid_.to_look_at = true;
+  Series series(folder_.path(), "contacts");
+  for (const double away : {0.0, 5e5}) {
+    for (Eigen::Vector3d& point : grid_.points) point.x() += away;
+    series.write(grid_, {away, {}, {}});
+  }
+  const double extent = std::sqrt(3.0) * 2;
+  for (const char* file : {"contacts_000000.vtu", "contacts_000001.vtu"}) {
+    const auto data = read_back(folder_.path() / "contacts" / file);
+    const bool near = file[14] == '0';
+    EXPECT_STREQ(data->GetPoints()->GetData()->GetDataTypeAsString(), near ? "float" : "double");
+    for (const NodeId node : mesh_.nodes.ids()) {
+      const Point<3> written = mesh_.nodes[node] + Point<3>(near ? 0 : 5e5, 0, 0);
+      EXPECT_LT((Point<3>(data->GetPoint(node.value())) - written).norm(), 1e-6 * extent);
+    }
+  }
 }
 
 // From some size on, files are laid out in whole pages.

@@ -35,12 +35,13 @@ output::Grid grid_at(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Pose>&
   for (const BlockId block : mesh.blocks.ids()) {
     for (const NodeId node : mesh.blocks[block].nodes) grid.points[node.index()] = poses[block] * grid.points[node.index()];
   }
+  grid.to_look_at = true;
   return grid;
 }
 
 template <int dim>
 output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const std::vector<Point<dim>>& flux) {
-  std::vector<double> components(3 * flux.size());
+  std::vector<float> components(3 * flux.size());
   auto at = components.begin();
   for (const Point<dim>& q : flux) at = std::copy(q.begin(), q.end(), at) + (3 - dim);
   output::Frame frame{time, {}, {}};
@@ -70,6 +71,7 @@ std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std
 template <int dim>
 output::Grid contact_grid(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts) {
   output::Grid grid;
+  grid.to_look_at = true;
   for (const auto& contact : contacts.contacts) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     point.head<dim>() = contact::point_of(mesh, contact);
@@ -85,8 +87,8 @@ template <int dim>
 std::vector<output::Array> contact_arrays(const contact::ContactSet<dim>& contacts, const Table<BlockId, BlockId>& numbers) {
   using Contact = contact::Contact<dim>;
   const auto& all = contacts.contacts;
-  return {{"area", 1, collect(all, [](const Contact& c) { return c.area; })},
-          {"gap", 1, collect(all, [](const Contact& c) { return c.gap; })},
+  return {{"area", 1, collect(all, [](const Contact& c) { return static_cast<float>(c.area); })},
+          {"gap", 1, collect(all, [](const Contact& c) { return static_cast<float>(c.gap); })},
           {"kind", 1, collect(all, [](const Contact& c) { return static_cast<std::int32_t>(c.kind); })},
           {"owner", 1, collect(all, [&](const Contact& c) { return numbers[c.owner].value(); })},
           {"target", 1, collect(all, [&](const Contact& c) { return numbers[c.target].value(); })}};

@@ -170,8 +170,8 @@ void HeatRecorder<dim>::write_frame(double time, const Eigen::VectorXd& of_rows,
   };
   const auto write_contacts = [&] {
     if (!contact_series_) return;
-    auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
-    contact_series_->add(output::Frame{time, {}, {{"heat_flow", 1, std::move(flows)}}});
+    const auto flows = thermal::contact_flows(pile_.contacts, pile_.joints, temperature, scene_.heat->joint.form);
+    contact_series_->add({time, {}, {{"heat_flow", 1, std::vector<float>(flows.begin(), flows.end())}}});
   };
   call_both(several_threads_ && !beside, write_blocks, write_contacts);
 }
