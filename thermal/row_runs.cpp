@@ -114,8 +114,8 @@ void RowRuns::close_part() {
 std::span<const RowRuns::Part> RowRuns::parts_of_task(int task, int threads) const {
   constexpr int pieces = 4 * (tasks_a_thread - 1);  // of a share: as many small tasks are a quarter of it
   constexpr int large = 3 * pieces / 4;
-  const int share = task % threads;
-  const int round = task / threads;
+  const int share = task / tasks_a_thread;
+  const int round = task % tasks_a_thread;
   const auto place = [&](int piece) {
     return parts_.size() * static_cast<std::size_t>(share * pieces + piece) / static_cast<std::size_t>(threads * pieces);
   };

@@ -1,6 +1,7 @@
 #include "engine/base/phases.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -14,22 +15,30 @@ namespace {
 
 // The threads that help, and the tasks they may take. One work at a time.
 //
-// `ticket_` holds the phase, counted on and on from one work to the next, and the number of the next task in it. Who raises it
-// by one has the task. What else is read here belongs to the phase of the ticket and does not change before all its
-// tasks are done, so a thread that comes late finds that its ticket is no longer valid and touches nothing.
+// The tasks of a phase are dealt out evenly, each thread having consecutive ones, and who has done its own takes those of
+// others. So a thread does the same tasks in every round, and what they read and write stays in its cache: between processors
+// that share none, each line takes a fifth of a microsecond.
+//
+// A share holds the phase, counted on and on from one work to the next, and the number of the next task in it. Who raises it by
+// one has the task. What else is read here belongs to the phase of the share and does not change before all its tasks are done,
+// so a thread that comes late finds that its share is no longer valid and touches nothing.
 class Crew {
  public:
+  static constexpr int most_helpers = 1023;
+
   void run(const PhasedWork& work, int helpers) {
-    while (helpers_ < helpers) std::thread([this, number = helpers_++] { help(number); }).detach();
-    invited_.store(helpers, std::memory_order_relaxed);
+    while (helpers_ < helpers) std::thread([this, number = ++helpers_] { help(number); }).detach();
+    threads_.store(helpers + 1, std::memory_order_relaxed);
     work_ = &work;
     step_ = 0;
-    const std::uint64_t first = ticket_.load(std::memory_order_relaxed) >> phase_shift;
+    const std::uint64_t first = phase_.load(std::memory_order_relaxed);
     end_ = first + 1 + static_cast<std::uint64_t>(work.rounds) * work.phases;
-    open(first + 1);
-    for (int idle = 0; ticket_.load(std::memory_order_acquire) >> phase_shift != end_;) {
-      idle = take() ? 0 : idle + 1;
-      if (idle > patience) std::this_thread::yield();
+    std::uint64_t phase = first + 1;
+    if (open(phase)) go_on_from(phase);
+    std::uint64_t seen = first;
+    for (int idle = 0; seen != end_; ++idle) {
+      if (take_part_in_new(0, seen)) idle = 0;
+      wait_a_little(idle);
     }
   }
 
@@ -38,61 +47,112 @@ class Crew {
  private:
   static constexpr unsigned phase_shift = 24;
   static constexpr std::uint64_t number_mask = (1U << phase_shift) - 1;
-  // Looks at a phase that has nothing left to hand out before the processor is offered to others, and before a helper sleeps:
-  // some tenths of a millisecond, as waking it up takes longer than what the caller does between two works of a loop.
-  static constexpr int patience = 2000;
+  // Looks for a new phase before the processor is offered to others, and before a helper sleeps: some tenths of a millisecond,
+  // as waking it up takes longer than what the caller does between two works of a loop.
+  static constexpr int patience = 5000;
   static constexpr int much_patience = patience + 600;
 
+  // In a line of the cache of its own. The end is that of the phase in `next`.
+  struct alignas(64) Share {
+    std::atomic<std::uint64_t> next{0};
+    std::atomic<int> end{0};
+  };
+
   void help(int number) {
-    for (int idle = 0;;) {
-      const std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
-      idle = number < invited_.load(std::memory_order_relaxed) && take() ? 0 : idle + 1;
-      if (idle > much_patience) {
-        ticket_.wait(ticket, std::memory_order_acquire);
-      } else if (idle > patience) {
-        std::this_thread::yield();
-      }
+    std::uint64_t seen = 0;
+    for (int idle = 0;; ++idle) {
+      if (take_part_in_new(number, seen)) idle = 0;
+      if (idle > much_patience) phase_.wait(seen, std::memory_order_acquire);
+      wait_a_little(idle);
     }
   }
 
-  // Does a task if there is one.
-  bool take() {
-    std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
-    const auto number = static_cast<int>(ticket & number_mask);
-    if (number >= size_.load(std::memory_order_acquire)) return false;
-    if (!ticket_.compare_exchange_strong(ticket, ticket + 1, std::memory_order_acq_rel)) return true;
-    work_->task(work_->body, step_ % work_->phases, number);
-    if (left_.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-      ++step_;
-      open((ticket >> phase_shift) + 1);
+  static void wait_a_little(int idle) {
+    if (idle > patience) {
+      std::this_thread::yield();
+    } else {
+      __builtin_ia32_pause();
     }
+  }
+
+  // Does what it finds to do if there is another phase than the one seen last and it is asked to help.
+  bool take_part_in_new(int number, std::uint64_t& seen) {
+    const std::uint64_t phase = phase_.load(std::memory_order_acquire);
+    if (phase == seen) return false;
+    seen = phase;
+    const int threads = threads_.load(std::memory_order_relaxed);
+    if (number >= threads) return false;
+    take_part(number, threads);
     return true;
   }
 
-  // The next phase that has tasks, or the end, at which the work may be gone as soon as the ticket is there.
-  void open(std::uint64_t phase) {
+  // In its own share first, and in the others. All that it takes is of one phase, which is not over before it says so.
+  void take_part(int number, int threads) {
+    std::uint64_t phase = 0;
+    int done = 0;
+    for (int i = 0; i < threads; ++i) {
+      Share& share = shares_[static_cast<std::size_t>((number + i) % threads)];
+      while (take_from(share, phase)) ++done;
+    }
+    if (done > 0 && left_.fetch_sub(done, std::memory_order_acq_rel) == done) go_on_from(phase);
+  }
+
+  // Does a task if there is one, and says of which phase.
+  bool take_from(Share& share, std::uint64_t& phase) {
+    std::uint64_t ticket = share.next.load(std::memory_order_acquire);
+    while (static_cast<int>(ticket & number_mask) < share.end.load(std::memory_order_acquire)) {
+      if (!share.next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
+      phase = ticket >> phase_shift;
+      work_->task(work_->body, step_ % work_->phases, static_cast<int>(ticket & number_mask));
+      return true;
+    }
+    return false;
+  }
+
+  void go_on_from(std::uint64_t phase) {
+    do {
+      ++step_;
+    } while (open(++phase));
+  }
+
+  // The next phase that has tasks, or the end, at which the work may be gone as soon as the phase is there. Whether the phase
+  // is over before it has been opened entirely.
+  bool open(std::uint64_t& phase) {
     while (phase != end_ && work_->sizes[step_ % work_->phases] == 0) {
       ++phase;
       ++step_;
     }
-    const int size = phase == end_ ? 0 : work_->sizes[step_ % work_->phases];
-    // Nobody may take the next number of the phase that is over for one of the new phase.
-    ticket_.fetch_or(number_mask, std::memory_order_acq_rel);
-    left_.store(size, std::memory_order_relaxed);
-    size_.store(size, std::memory_order_release);
-    ticket_.store(phase << phase_shift, std::memory_order_release);
-    ticket_.notify_all();
+    const bool at_end = phase == end_;
+    if (!at_end) deal_out(phase, work_->sizes[step_ % work_->phases]);
+    phase_.store(phase, std::memory_order_release);
+    phase_.notify_all();
+    return !at_end && left_.fetch_sub(1, std::memory_order_acq_rel) == 1;
+  }
+
+  void deal_out(std::uint64_t phase, int tasks) {
+    const int threads = threads_.load(std::memory_order_relaxed);
+    left_.store(tasks + 1, std::memory_order_relaxed);  // and the opening
+    std::int64_t first = 0;
+    for (int i = 0; i < threads; ++i) {
+      Share& share = shares_[static_cast<std::size_t>(i)];
+      // Nobody may take the next number of the phase that is over for one of the new phase.
+      share.next.fetch_or(number_mask, std::memory_order_acq_rel);
+      const std::int64_t end = static_cast<std::int64_t>(tasks) * (i + 1) / threads;
+      share.end.store(static_cast<int>(end), std::memory_order_release);
+      share.next.store(phase << phase_shift | static_cast<std::uint64_t>(first), std::memory_order_release);
+      first = end;
+    }
   }
 
   std::mutex busy_;
   int helpers_ = 0;
-  std::atomic<int> invited_{0};
   const PhasedWork* work_ = nullptr;
   int step_ = 0;  // phases of the work that are over
   std::uint64_t end_ = 0;
-  std::atomic<std::uint64_t> ticket_{0};
-  std::atomic<int> size_{0};  // tasks of the phase
-  std::atomic<int> left_{0};  // those not yet done
+  std::array<Share, most_helpers + 1> shares_;
+  alignas(64) std::atomic<std::uint64_t> phase_{0};  // written last
+  std::atomic<int> threads_{1};                      // that take part
+  alignas(64) std::atomic<int> left_{0};             // tasks of the phase that are not known to be done
 };
 
 // Never destroyed: its threads live as long as the process.
@@ -112,7 +172,7 @@ void run_alone(const PhasedWork& work) {
 
 void run_phases(const PhasedWork& work) {
   const bool worth_sharing = *std::max_element(work.sizes, work.sizes + work.phases) > 1;
-  const int helpers = threads_in_use() - 1;
+  const int helpers = std::min(threads_in_use() - 1, Crew::most_helpers);
   if (!work.shared || !worth_sharing || helpers == 0) return run_alone(work);
   if (const std::unique_lock lock(crew().busy(), std::try_to_lock); lock.owns_lock()) {
     crew().run(work, helpers);

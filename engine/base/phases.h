@@ -3,7 +3,8 @@
 // Phases may be as short as some tens of microseconds, and there may be a thousand a second. Loops of OpenMP end when every
 // thread has come to their end, which on a machine with other work takes until every thread has had its turn on a processor.
 // Here the calling thread does what there is to do, and other threads help if they have a processor: one that has none holds up
-// nobody, unless it was stopped within a task.
+// nobody, unless it was stopped within a task. Each begins with the same consecutive tasks of a phase every time, and goes on
+// with those that others have not come to.
 #pragma once
 
 #include <algorithm>
