@@ -1,9 +1,9 @@
 #include "engine/base/input.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -132,12 +132,27 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
   return root;
 }
 
+namespace {
+
+// A pipe is read to its end; a device may have none.
+std::string whole_text(std::istream& stream, const std::filesystem::path& file) {
+  constexpr std::size_t most = 256'000'000;
+  std::string text;
+  std::array<char, 1 << 16> some;
+  while (stream.read(some.data(), some.size()) || stream.gcount() > 0) {
+    text.append(some.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most) refuse({file.string(), 0, 0}, "not readable", "more than 256 MB", "Name a file of text");
+  }
+  return text;
+}
+
+}  // namespace
+
 InputValue read_yaml(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) refuse({file.string(), 0, 0}, "not readable", "a folder", "");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse({file.string(), 0, 0}, "not readable", std::strerror(errno), "");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  return parse_yaml(text, file.string());
+  return parse_yaml(whole_text(stream, file), file.string());
 }
 
 std::string describe(const InputValue& value) {

@@ -82,6 +82,8 @@ TEST(Input, AMissingFileSaysSo) {
   EXPECT_EQ(message_of([] { read_yaml("/nowhere/s.yaml"); }),
             "/nowhere/s.yaml: the file is not readable (No such file or directory)");
   EXPECT_EQ(message_of([] { read_yaml("/"); }), "/: the file is not readable (a folder)");
+  EXPECT_EQ(message_of([] { read_yaml("/dev/zero"); }),
+            "/dev/zero: the file is not readable (more than 256 MB). Name a file of text");
 }
 
 TEST(Override, SetsReplacesAndTakesAway) {
