@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/scenes/scene_run.h"
@@ -91,6 +92,26 @@ TEST(JointedCubes, ConductAsTheClosedFormSays) {
   }
   EXPECT_NEAR(found["solid_fraction"].get<double>(), 1, 1e-9);
   EXPECT_FALSE(run.summary["heat"].contains("covered_boundaries"));
+}
+
+// A gap of a quarter of a millimetre between meshes of 50 and 12.5 mm: the coarse side reaches over 1 % of its elements, the
+// fine one does not.
+TEST(BarsOfUnlikeMeshes, AreToldThatTheirJointConductsHalfAndWithWhichToleranceItConductsAll) {
+  const std::vector<std::string> apart{"contact={model: semi_spring, conductance: 50}",
+                                       "bodies.left.mesh_size=0.05",
+                                       "bodies.right.mesh_size=0.0125",
+                                       "bodies.right.box.centre=[0.10025, 0, 0]",
+                                       "output.probes=null",
+                                       "heat.boundaries.1.within={low: [0.20025, -1, -1], high: [0.20025, 1, 1]}"};
+  const SceneRun half = sound_run("bars_and_joint", "bars_apart", apart);
+  const auto& told = half.summary["contacts"]["one_sided"];
+  EXPECT_EQ(told["count"], half.summary["contacts"]["point_face"]);
+  EXPECT_NEAR(half.summary["joints"][0]["touching_area"], 0.00125, 1e-9);
+  auto wider = apart;
+  wider.push_back(fmt::format("contact.tolerance={}", 1.2 * told["tolerance"].get<double>()));
+  const SceneRun all = sound_run("bars_and_joint", "bars_reached", wider);
+  EXPECT_FALSE(all.summary["contacts"].contains("one_sided"));
+  EXPECT_NEAR(all.summary["joints"][0]["touching_area"], 0.0025, 1e-9);
 }
 
 // 64 cubes with sides of 0.01 m2, 144 joints of which cover a side of each of two cubes.

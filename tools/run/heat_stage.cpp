@@ -17,6 +17,13 @@ namespace scree::run {
 
 namespace {
 
+std::string one_sided_words(const contact::OneSided& joints) {
+  return fmt::format(
+      "{} semi-springs of {:.4g} m2 reach across gaps over which the finer mesh behind does not: those joints conduct half. "
+      "With a contact.tolerance of some {:.2g} both sides do",
+      joints.contacts, joints.area, 1.2 * joints.tolerance);
+}
+
 template <int dim>
 HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim>& packing) {
   auto pile = placed_pile(context.scene, packing, [&](const std::string& text) { context.progress.note(text); });
@@ -27,6 +34,7 @@ HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim>& packing) {
   });
   for (const std::string& key : pile.unused_joints)
     context.progress.note(fmt::format("contacts: {} holds for none in this packing", key));
+  if (pile.one_sided) context.progress.note("contacts: " + one_sided_words(*pile.one_sided));
   return pile;
 }
 

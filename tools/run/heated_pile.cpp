@@ -62,7 +62,9 @@ template <int dim>
 void join(const Scene& scene, HeatedPile<dim>& pile) {
   const thermal::JointOptions& joint = scene.heat->joint;
   if (pile.mesh.blocks.size() > 1) {
-    pile.contacts = contact::find_contacts(pile.mesh, search_of(scene, pile));
+    const contact::ContactOptions search = search_of(scene, pile);
+    pile.contacts = contact::find_contacts(pile.mesh, search);
+    pile.one_sided = contact::one_sided(pile.mesh, pile.contacts, search.tolerance);
   }
   auto unused = thermal::unused_rules(joint, pile.mesh, pile.contacts);
   for (const Problem& problem : unused) pile.unused_joints.push_back(problem.key);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/find_contacts.h"
+#include "contact/one_sided.h"
 #include "engine/output/probes.h"
 #include "engine/packing/remaining.h"
 #include "thermal/heat_model.h"
@@ -22,6 +23,7 @@ struct HeatedPile {
   packing::Places places;     // of its blocks and nodes in the packing
   bool settled = false;       // by a fall, and not where a scene placed them
   contact::ContactSet<dim> contacts;
+  std::optional<contact::OneSided> one_sided;  // of these, if there are any
   thermal::JointConduction<dim> joints;
   std::vector<std::string> unused_joints;  // keys of rules that hold for none of the contacts
   std::vector<output::Probe<dim>> probes;

@@ -188,6 +188,9 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                          {"overlap", contacts.count(contact::Kind::overlap)},
                          {"semi_springs", contacts.semi_springs},
                          {"semi_edges", contacts.semi_edges}};
+  if (const auto& joints = outcome.pile.one_sided) {
+    summary["contacts"]["one_sided"] = {{"count", joints->contacts}, {"area", joints->area}, {"tolerance", joints->tolerance}};
+  }
   summary["joints"] = joints_json(outcome, scene);
   if (outcome.effective) summary["effective_conductivity"] = effective_json<dim>(*outcome.effective);
   const thermal::HeatState& state = outcome.state;
