@@ -71,7 +71,9 @@ class Crew {
     if (idle > patience) {
       std::this_thread::yield();
     } else {
+#ifdef __x86_64__
       __builtin_ia32_pause();
+#endif
     }
   }
 
