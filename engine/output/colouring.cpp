@@ -10,7 +10,7 @@
 namespace scree::output {
 
 Colouring make_colours(vtkDataArray& array, std::array<double, 2> range) {
-  if (array.GetDataType() != VTK_DOUBLE) {
+  if (array.GetDataType() == VTK_INT) {
     vtkNew<vtkColorSeries> series;
     series->SetColorScheme(vtkColorSeries::BREWER_QUALITATIVE_SET2);
     auto table = vtkSmartPointer<vtkLookupTable>::New();

@@ -39,7 +39,7 @@ vtkDataArray* select_array(vtkUnstructuredGrid& grid, const Picture& picture) {
   for (vtkDataSetAttributes* data : std::initializer_list<vtkDataSetAttributes*>{grid.GetPointData(), grid.GetCellData()}) {
     vtkDataArray* array = data->GetArray(picture.array.c_str());
     if (array == nullptr) continue;
-    if (array->GetDataType() == VTK_DOUBLE) {
+    if (array->GetDataType() != VTK_INT) {
       vtkNew<vtkDoubleArray> shown;
       shown->SetName("shown");
       shown->SetNumberOfValues(array->GetNumberOfTuples());

@@ -143,7 +143,7 @@ TEST_F(AnimationTest, ContactLinesAreHotWhereTheHeatFlows) {
   points.connectivity = {0, 1};
   contacts.write(points, {7,
                           {},
-                          {{"heat_flow", 1, std::vector<double>{0.1, -10}},
+                          {{"heat_flow", 1, std::vector<float>{0.1F, -10}},
                            {"owner", 1, std::vector<std::int32_t>{0, 2}},
                            {"target", 1, std::vector<std::int32_t>{1, 3}}}});
   picture_.series = folder / "contacts.pvd";
