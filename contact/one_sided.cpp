@@ -1,10 +1,9 @@
 #include "contact/one_sided.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "contact/overlap.h"
 #include "engine/base/chunks.h"
 
 namespace scree::contact {
@@ -15,19 +14,9 @@ constexpr double rounding = 1e-9;
 constexpr double least_part = 0.01;
 
 template <int dim>
-Point<dim> normal(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes) {
-  const Point<dim> way = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
-  if constexpr (dim == 2) {
-    return Point<2>(way.y(), -way.x()).normalized();
-  } else {
-    return way.cross(mesh.nodes[nodes[2]] - mesh.nodes[nodes[0]]).normalized();
-  }
-}
-
-template <int dim>
 bool opposed(const mesh::BlockMesh<dim>& mesh, const Contact<dim>& contact) {
-  const double most = -std::cos(10 * std::numbers::pi / 180);
-  return normal<dim>(mesh, contact.on_owner.nodes).dot(normal<dim>(mesh, contact.on_target.nodes)) <= most;
+  const auto normal = [&](const Stencil<dim>& side) { return mesh::area_vector<dim>(mesh, side.nodes).normalized(); };
+  return normal(contact.on_owner).dot(normal(contact.on_target)) <= -least_opposed;
 }
 
 // Whether the target has semi-springs of its own that reach the owner. Contacts are in the order of their owners, overlaps

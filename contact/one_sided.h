@@ -14,9 +14,9 @@ struct OneSided {
   double tolerance = 0;      // with which the elements that they meet would reach as far [-]
 };
 
-// Between blocks of which one has semi-springs that reach the other, and none the other way; of faces opposed within 10
-// degrees: where they are not, what touches is a corner or an edge, which the other side need not know of. Nothing if they are
-// less than a hundredth of the area of all semi-springs that reach a target, as of blocks in a heap that hardly touch.
+// Between blocks of which one has semi-springs that reach the other, and none the other way; of faces that are opposed
+// (overlap.h): where they are not, what touches is a corner or an edge, which the other side need not know of. Nothing if they
+// are less than a hundredth of the area of all semi-springs that reach a target, as of blocks in a heap that hardly touch.
 template <int dim>
 std::optional<OneSided> one_sided(const mesh::BlockMesh<dim>& mesh, const ContactSet<dim>& contacts, double tolerance);
 

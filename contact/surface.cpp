@@ -14,17 +14,6 @@ namespace scree::contact {
 
 namespace {
 
-// Outward normal, as long as the face's area.
-template <int dim>
-Point<dim> area_vector(const Corners<dim>& corners) {
-  if constexpr (dim == 2) {
-    const Point<2> way = corners[1] - corners[0];
-    return {way.y(), -way.x()};
-  } else {
-    return 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  }
-}
-
 // Angle of the face at a corner; 1 in 2-D, where both edges at a node count alike.
 template <int dim>
 double angle_at(const Corners<dim>& corners, int corner) {
@@ -126,7 +115,7 @@ void add_edges(const std::vector<std::size_t>& starts, const std::vector<Chunk>&
 
 template <int dim>
 void measure_face(FaceId f, Surface<dim>& surface) {
-  const Point<dim> area = area_vector<dim>(corners_of(surface, f));
+  const Point<dim> area = mesh::area_vector<dim>(surface.mesh, surface.faces[f].nodes);
   surface.areas[f] = area.norm();
   surface.normals[f] = area.normalized();
   surface.lengths[f] = mesh::element_mean_edge(surface.mesh, surface.faces[f].element);

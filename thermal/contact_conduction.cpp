@@ -4,26 +4,11 @@
 
 namespace scree::thermal {
 
-namespace {
-
-// Outwards and unit: the nodes of a boundary face are in that order.
-template <int dim>
-Point<dim> face_normal(const mesh::BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes) {
-  const Point<dim> way = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
-  if constexpr (dim == 2) {
-    return Point<2>(way.y(), -way.x()).normalized();
-  } else {
-    return way.cross(mesh.nodes[nodes[2]] - mesh.nodes[nodes[0]]).normalized();
-  }
-}
-
-}  // namespace
-
 template <int dim>
 Point<dim> contact_normal(const mesh::BlockMesh<dim>& mesh, const contact::Contact<dim>& contact) {
-  const Point<dim> own = face_normal<dim>(mesh, contact.on_owner.nodes);
+  const Point<dim> own = mesh::area_vector<dim>(mesh, contact.on_owner.nodes).normalized();
   if (contact.kind != contact::Kind::overlap) return own;
-  return (own - face_normal<dim>(mesh, contact.on_target.nodes)).normalized();
+  return (own - mesh::area_vector<dim>(mesh, contact.on_target.nodes).normalized()).normalized();
 }
 
 template <int dim>

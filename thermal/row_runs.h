@@ -77,8 +77,9 @@ class RowRuns {
   Part& open_part(int row, Kind kind);
   void close_part();
 
-  // Each thread has a share of the rows. The first tasks are three quarters of every share, for a thread that takes the same
-  // one in every product finds it in its cache; the others are small and even out who is done first.
+  // Each thread has a share of the rows, in consecutive tasks, which run_phases deals out to it. The first is three quarters of
+  // the share, for a thread that takes the same one in every product finds it in its cache; the others are small and even out
+  // who is done first.
   [[nodiscard]] std::span<const Part> parts_of_task(int task, int threads) const;
 
   // The flows of rows that repeat, one after another.

@@ -25,6 +25,18 @@ SourceLocation location(const std::string& file, const YAML::Mark& mark) {
   throw InputError(Problem{where, "the file", value, rule, suggestion});
 }
 
+// A pipe is read to its end; a device may have none.
+std::string whole_text(std::istream& stream, const std::filesystem::path& file) {
+  constexpr std::size_t most = 256'000'000;
+  std::string text;
+  std::array<char, 1 << 16> some;
+  while (stream.read(some.data(), some.size()) || stream.gcount() > 0) {
+    text.append(some.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most) refuse({file.string(), 0, 0}, "not readable", "more than 256 MB", "Name a file of text");
+  }
+  return text;
+}
+
 // What JSON takes, which all that is said of a run is written in.
 bool is_utf8(const std::string& text) {
   try {
@@ -131,22 +143,6 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
   if (!converter.problems.empty()) throw InputError(std::move(converter.problems));
   return root;
 }
-
-namespace {
-
-// A pipe is read to its end; a device may have none.
-std::string whole_text(std::istream& stream, const std::filesystem::path& file) {
-  constexpr std::size_t most = 256'000'000;
-  std::string text;
-  std::array<char, 1 << 16> some;
-  while (stream.read(some.data(), some.size()) || stream.gcount() > 0) {
-    text.append(some.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > most) refuse({file.string(), 0, 0}, "not readable", "more than 256 MB", "Name a file of text");
-  }
-  return text;
-}
-
-}  // namespace
 
 InputValue read_yaml(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) refuse({file.string(), 0, 0}, "not readable", "a folder", "");

@@ -30,12 +30,10 @@ class Crew {
     while (helpers_ < helpers) std::thread([this, number = ++helpers_] { help(number); }).detach();
     threads_.store(helpers + 1, std::memory_order_relaxed);
     work_ = &work;
-    step_ = 0;
-    const std::uint64_t first = phase_.load(std::memory_order_relaxed);
-    end_ = first + 1 + static_cast<std::uint64_t>(work.rounds) * work.phases;
-    std::uint64_t phase = first + 1;
-    if (open(phase)) go_on_from(phase);
-    std::uint64_t seen = first;
+    std::uint64_t seen = phase_.load(std::memory_order_relaxed);
+    begin_ = seen + 1;
+    end_ = begin_ + static_cast<std::uint64_t>(work.rounds) * work.phases;
+    go_on_from(seen);
     for (int idle = 0; seen != end_; ++idle) {
       if (take_part_in_new(0, seen)) idle = 0;
       wait_a_little(idle);
@@ -105,27 +103,28 @@ class Crew {
     while (static_cast<int>(ticket & number_mask) < share.end.load(std::memory_order_acquire)) {
       if (!share.next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
       phase = ticket >> phase_shift;
-      work_->task(work_->body, step_ % work_->phases, static_cast<int>(ticket & number_mask));
+      work_->task(work_->body, place_of(phase), static_cast<int>(ticket & number_mask));
       return true;
     }
     return false;
   }
 
+  // Among those of the work.
+  int place_of(std::uint64_t phase) const {
+    return static_cast<int>((phase - begin_) % work_->phases);
+  }
+
   void go_on_from(std::uint64_t phase) {
-    do {
-      ++step_;
-    } while (open(++phase));
+    while (open(++phase)) {
+    }
   }
 
   // The next phase that has tasks, or the end, at which the work may be gone as soon as the phase is there. Whether the phase
   // is over before it has been opened entirely.
   bool open(std::uint64_t& phase) {
-    while (phase != end_ && work_->sizes[step_ % work_->phases] == 0) {
-      ++phase;
-      ++step_;
-    }
+    while (phase != end_ && work_->sizes[place_of(phase)] == 0) ++phase;
     const bool at_end = phase == end_;
-    if (!at_end) deal_out(phase, work_->sizes[step_ % work_->phases]);
+    if (!at_end) deal_out(phase, work_->sizes[place_of(phase)]);
     phase_.store(phase, std::memory_order_release);
     phase_.notify_all();
     return !at_end && left_.fetch_sub(1, std::memory_order_acq_rel) == 1;
@@ -149,7 +148,7 @@ class Crew {
   std::mutex busy_;
   int helpers_ = 0;
   const PhasedWork* work_ = nullptr;
-  int step_ = 0;  // phases of the work that are over
+  std::uint64_t begin_ = 0;  // of its phases
   std::uint64_t end_ = 0;
   std::array<Share, most_helpers + 1> shares_;
   alignas(64) std::atomic<std::uint64_t> phase_{0};  // written last

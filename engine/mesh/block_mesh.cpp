@@ -74,13 +74,18 @@ double simplex_volume(const BlockMesh<dim>& mesh, const std::array<NodeId, dim +
 }
 
 template <int dim>
-double face_area(const BlockMesh<dim>& mesh, const Face<dim>& face) {
-  const Point<dim> u = mesh.nodes[face.nodes[1]] - mesh.nodes[face.nodes[0]];
+Point<dim> area_vector(const BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes) {
+  const Point<dim> way = mesh.nodes[nodes[1]] - mesh.nodes[nodes[0]];
   if constexpr (dim == 2) {
-    return u.norm();
+    return {way.y(), -way.x()};
   } else {
-    return 0.5 * u.cross(mesh.nodes[face.nodes[2]] - mesh.nodes[face.nodes[0]]).norm();
+    return 0.5 * way.cross(mesh.nodes[nodes[2]] - mesh.nodes[nodes[0]]);
   }
+}
+
+template <int dim>
+double face_area(const BlockMesh<dim>& mesh, const Face<dim>& face) {
+  return area_vector<dim>(mesh, face.nodes).norm();
 }
 
 template <int dim>
@@ -121,6 +126,7 @@ Table<ElementId, BlockId> element_blocks(const BlockMesh<dim>& mesh) {
   template void add_boundary_faces<dim>(const BlockMesh<dim>&, BlockId, Table<FaceId, Face<dim>>&); \
   template double element_volume<dim>(const BlockMesh<dim>&, ElementId);                            \
   template double simplex_volume<dim>(const BlockMesh<dim>&, const std::array<NodeId, dim + 1>&);   \
+  template Point<dim> area_vector<dim>(const BlockMesh<dim>&, const std::array<NodeId, dim>&);      \
   template double face_area<dim>(const BlockMesh<dim>&, const Face<dim>&);                          \
   template double element_mean_edge<dim>(const BlockMesh<dim>&, ElementId);                         \
   template double mean_edge<dim>(const BlockMesh<dim>&);                                            \

@@ -98,6 +98,10 @@ double element_volume(const BlockMesh<dim>& mesh, ElementId element);
 template <int dim>
 double simplex_volume(const BlockMesh<dim>& mesh, const std::array<NodeId, dim + 1>& corners);
 
+// Outward normal of a face of a block, its nodes in their order there, as long as the face's area [m2].
+template <int dim>
+Point<dim> area_vector(const BlockMesh<dim>& mesh, const std::array<NodeId, dim>& nodes);
+
 // Length (2-D, times unit thickness) or area (3-D) of a face [m2].
 template <int dim>
 double face_area(const BlockMesh<dim>& mesh, const Face<dim>& face);

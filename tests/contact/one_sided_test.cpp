@@ -9,16 +9,21 @@ namespace {
 
 using namespace testing;
 
-// A cube of edge 1 and, a gap away, a plate of sixteen small cubes that covers its face.
-mesh::BlockMesh<3> cube_before_fine_plate(double gap) {
+// Sixteen small cubes side by side, from (x, 0, 0) to (x + 0.25, 1, 1).
+BlockOf<3> fine_plate(double x) {
   BlockOf<3> plate;
   for (int y = 0; y < 4; ++y) {
     for (int z = 0; z < 4; ++z) {
-      const auto small = box<3>(Point<3>(1 + gap, 0.25 * y, 0.25 * z), Point<3>(0.25, 0.25, 0.25));
+      const auto small = box<3>(Point<3>(x, 0.25 * y, 0.25 * z), Point<3>(0.25, 0.25, 0.25));
       plate.insert(plate.end(), small.begin(), small.end());
     }
   }
-  return mesh_of<3>({box<3>(Point<3>(0, 0, 0), Point<3>(1, 1, 1)), plate});
+  return plate;
+}
+
+// A cube of edge 1 and, a gap away, a plate that covers its face.
+mesh::BlockMesh<3> cube_before_fine_plate(double gap) {
+  return mesh_of<3>({box<3>(Point<3>(0, 0, 0), Point<3>(1, 1, 1)), fine_plate(1 + gap)});
 }
 
 std::size_t owned_by(const ContactSet<3>& set, std::size_t block) {
@@ -67,17 +72,8 @@ TEST(OneSided, AreNoneWhereFacesTouchOrACornerStandsOnAFace) {
   EXPECT_FALSE(one_sided(flush, find_contacts<3>(flush, options), options.tolerance).has_value());
   // A large tetrahedron with a corner on the plate: its semi-springs hang above it, further than the plate's small elements
   // reach, and none of theirs is missing.
-  auto blocks =
-      std::vector<BlockOf<3>>{{{Point<3>(0.999, 0.5, 0.5), Point<3>(0, 0, 0), Point<3>(0, 1, 0.2), Point<3>(0, 0.5, 1)}}};
-  BlockOf<3> plate;
-  for (const double y : {0.0, 0.25, 0.5, 0.75}) {
-    for (const double z : {0.0, 0.25, 0.5, 0.75}) {
-      const auto small = box<3>(Point<3>(1, y, z), Point<3>(0.25, 0.25, 0.25));
-      plate.insert(plate.end(), small.begin(), small.end());
-    }
-  }
-  blocks.push_back(plate);
-  const auto standing = mesh_of<3>(blocks);
+  const BlockOf<3> large{{Point<3>(0.999, 0.5, 0.5), Point<3>(0, 0, 0), Point<3>(0, 1, 0.2), Point<3>(0, 0.5, 1)}};
+  const auto standing = mesh_of<3>({large, fine_plate(1)});
   const auto found = find_contacts<3>(standing, options);
   ASSERT_GT(owned_by(found, 0), 0u);
   EXPECT_FALSE(one_sided(standing, found, options.tolerance).has_value());

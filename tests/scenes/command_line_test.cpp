@@ -98,21 +98,5 @@ TEST(CommandLine, AProgramIsToldOfABadSceneToo) {
   EXPECT_THAT(end["reasons"][0].get<std::string>(), HasSubstr("heat.until"));
 }
 
-// What the command says on standard error, having ended with this status.
-std::string complaint(const std::string& arguments, int status) {
-  const auto log = fresh_directory("complaint") / "log";
-  const int ended = std::system((program + " " + arguments + " > /dev/null 2> " + log.string()).c_str());
-  EXPECT_EQ(WEXITSTATUS(ended), status) << arguments;
-  return contents(log);
-}
-
-TEST(CommandLine, NamesThatMeanNothingAreRefusedInWordsThatSayWhat) {
-  EXPECT_THAT(complaint("keys nothing.like", 2), HasSubstr("nothing.like (must begin a key of a scene)"));
-  const auto empty = fresh_directory("not_a_run");
-  EXPECT_THAT(complaint("resume " + empty.string(), 2), HasSubstr("(must be that of a run, which holds its scene.yaml)"));
-  EXPECT_THAT(complaint("accuracy " + std::string(SCREE_SOURCE_DIR) + "/scenes/slab.yaml --out /proc/nowhere", 1),
-              HasSubstr("/proc/nowhere: cannot be created"));
-}
-
 }  // namespace
 }  // namespace scree::test

@@ -59,6 +59,18 @@ TEST(Command, SaysWhatADirectoryThatCannotBeWrittenIs) {
   EXPECT_NE(outcome.text.find("/proc/nowhere"), std::string::npos) << outcome.text;
 }
 
+TEST(Command, RefusesNamesThatMeanNothingInWordsThatSayWhat) {
+  const auto expect_refused = [](const std::string& arguments, int status, const std::string& words) {
+    const Outcome outcome = scree(arguments);
+    EXPECT_EQ(outcome.status, status) << arguments;
+    EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
+  };
+  expect_refused("keys nothing.like", 2, "nothing.like (must begin a key of a scene)");
+  const auto empty = fresh_directory("not_a_run");
+  expect_refused("resume " + empty.string(), 2, "(must be that of a run, which holds its scene.yaml)");
+  expect_refused("accuracy " + scene("slab") + " --out /proc/nowhere", 1, "/proc/nowhere: cannot be created");
+}
+
 TEST(Command, FailsIfWhatItPrintsDoesNotArrive) {
   const int status = std::system((std::string(SCREE_PROGRAM) + " check " + scene("slab") + " > /dev/full").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
