@@ -79,10 +79,12 @@ std::vector<NodeId> by_slabs(const std::vector<Group>& groups, std::size_t nodes
   return ordered;
 }
 
-// Halves them across their longest side, and each half again.
-void halve(std::span<Group> groups, const Eigen::Matrix3Xd& places) {
-  constexpr std::size_t few = 2;
-  if (groups.size() <= few) return;
+bool is_before(const Group& a, const Group& b, const Eigen::Matrix3Xd& places, int axis) {
+  const auto key = [&](const Group& group) { return std::pair(places(axis, group.nodes[0].value()), group.nodes[0]); };
+  return key(a) < key(b);
+}
+
+int longest_side(std::span<const Group> groups, const Eigen::Matrix3Xd& places) {
   const auto at = [&](const Group& group) { return places.col(group.nodes[0].value()); };
   Eigen::Vector3d least = at(groups[0]), largest = least;
   for (const Group& group : groups) {
@@ -91,17 +93,45 @@ void halve(std::span<Group> groups, const Eigen::Matrix3Xd& places) {
   }
   int axis = 0;
   (largest - least).maxCoeff(&axis);
+  return axis;
+}
+
+// Halves them across their longest side, and each half again.
+void halve(std::span<Group> groups, const Eigen::Matrix3Xd& places) {
+  constexpr std::size_t few = 2;
+  if (groups.size() <= few) return;
+  const int axis = longest_side(groups, places);
   const std::size_t half = groups.size() / 2;
-  std::nth_element(
-      groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(half), groups.end(),
-      [&](const Group& a, const Group& b) { return std::pair(at(a)[axis], a.nodes[0]) < std::pair(at(b)[axis], b.nodes[0]); });
+  std::nth_element(groups.begin(), groups.begin() + static_cast<std::ptrdiff_t>(half), groups.end(),
+                   [&](const Group& a, const Group& b) { return is_before(a, b, places, axis); });
   halve(groups.first(half), places);
   halve(groups.subspan(half), places);
 }
 
-std::vector<NodeId> by_halves(std::vector<Group> groups, std::size_t nodes, const Eigen::Matrix3Xd& places) {
-  const auto small = std::stable_partition(groups.begin(), groups.end(), [](const Group& group) { return !group.small_block; });
+// Those of a region: first nodes of larger blocks, as they are, then small blocks.
+void order_region(std::span<Group> groups, const Eigen::Matrix3Xd& places) {
+  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return std::pair(a.small_block, a.nodes[0]) < std::pair(b.small_block, b.nodes[0]);
+  });
+  const auto small = std::find_if(groups.begin(), groups.end(), [](const Group& group) { return group.small_block; });
   halve({small, groups.end()}, places);
+}
+
+// Regions of as many rows each.
+void order_regions(std::span<Group> groups, const Eigen::Matrix3Xd& places, int halvings) {
+  if (halvings == 0 || groups.size() < 2) return order_region(groups, places);
+  const int axis = longest_side(groups, places);
+  std::sort(groups.begin(), groups.end(), [&](const Group& a, const Group& b) { return is_before(a, b, places, axis); });
+  std::size_t rows = 0, half = 0, passed = 0;
+  for (const Group& group : groups) rows += group.nodes.size();
+  while (half < groups.size() && 2 * passed < rows) passed += groups[half++].nodes.size();
+  order_regions(groups.first(half), places, halvings - 1);
+  order_regions(groups.subspan(half), places, halvings - 1);
+}
+
+std::vector<NodeId> by_regions(std::vector<Group> groups, std::size_t nodes, const Eigen::Matrix3Xd& places) {
+  constexpr int halvings = 2;  // two threads, and four, have regions of their own
+  order_regions(groups, places, halvings);
   std::vector<NodeId> ordered;
   ordered.reserve(nodes);
   for (const Group& group : groups) ordered.insert(ordered.end(), group.nodes.begin(), group.nodes.end());
@@ -114,7 +144,7 @@ std::vector<NodeId> in_space_order(const std::vector<NodeId>& nodes, const Table
                                    const Eigen::Matrix3Xd& places) {
   std::vector<Group> groups = groups_of(nodes, blocks);
   return nodes.size() >= many_rows ? by_slabs(groups, nodes.size(), places)
-                                   : by_halves(std::move(groups), nodes.size(), places);
+                                   : by_regions(std::move(groups), nodes.size(), places);
 }
 
 }  // namespace scree::thermal

@@ -23,8 +23,8 @@ bool is_worth_ordering(const mesh::BlockMesh<dim>& mesh) {
 
 // Nodes in the order that their rows should have. The rows of a block as small as a bundle stay together.
 //  Many rows: by slabs across the longest side of all, in a slab by strips, in a strip by place, each about as thick as nodes
-//  are apart. Fewer: first those of larger blocks as they are, then the small blocks, halved across the longest side of all,
-//  and each half again.
+//  are apart. Fewer: by four regions of as many rows each, halves of halves across the longest side, so that threads share few
+//  of them; in a region first those of larger blocks as they are, then the small blocks, halved likewise on and on.
 // `blocks`: of every node of the mesh. `places`: of every node [m].
 std::vector<NodeId> in_space_order(const std::vector<NodeId>& nodes, const Table<NodeId, BlockId>& blocks,
                                    const Eigen::Matrix3Xd& places);

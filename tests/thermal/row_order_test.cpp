@@ -1,4 +1,5 @@
 // Rows in the order of space, and products that share what they read.
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -101,34 +102,57 @@ TEST(RowOrder, GoesThroughSlabsAcrossTheLongestSideAndKeepsSmallBlocksTogether) 
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(RowOrder, OfAPileThatStaysInTheCacheLargeBlocksComeFirstAndEveryEighthOfTheSmallOnesIsACornerOfIt) {
-  // Eight by eight by eight blocks of four nodes, listed in no order of note, with a large block of seven in their midst.
+// Eight by eight by eight blocks of four nodes, listed in no order of note, with a plate of eight by eight nodes in their
+// midst.
+Nodes small_pile_on_a_plate() {
   Nodes mesh;
   for (int i = 0; i < 512; ++i) {
     if (i == 100) {
-      for (int k = 0; k < 7; ++k) mesh.add(512, {-1.0, 0.5 * k, 0});
+      for (int k = 0; k < 64; ++k) mesh.add(512, Eigen::Vector3d(k % 8, k / 8, 0));
     }
     const int place = i * 211 % 512;
     for (int k = 0; k < 4; ++k)
       mesh.add(i, Eigen::Vector3d(place % 8, place / 8 % 8, place / 64) + 0.1 * k * Eigen::Vector3d::Ones());
   }
+  return mesh;
+}
+
+TEST(RowOrder, OfAPileThatStaysInTheCacheEveryQuarterIsAColumnOfItWithItsPartOfThePlateFirstAndThenTwoCubes) {
+  const Nodes mesh = small_pile_on_a_plate();
   const std::vector<NodeId> order = mesh.in_order();
-  ASSERT_EQ(order.size(), mesh.nodes.size());
-  for (std::size_t k = 0; k < 7; ++k) EXPECT_EQ(order[k], NodeId(400 + k));
-  std::set<int> corners;
-  for (std::size_t first = 7; first < order.size(); first += 4 * 64) {
+  ASSERT_EQ(order.size(), 4U * (16 + 2 * 64 * 4));
+  std::set<int> columns, cubes;
+  const auto corner = [](const Eigen::AlignedBox3d& box) {
+    return static_cast<int>(box.min().dot(Eigen::Vector3d(1, 2, 4)) / 4);
+  };
+  auto next = order.begin();
+  const auto of_four_nodes = [&](int blocks) {
     Eigen::AlignedBox3d box;
-    for (std::size_t i = first; i < first + 4 * 64; ++i) {
-      if ((i - 7) % 4 != 0) {
-        EXPECT_EQ(order[i].value(), order[i - 1].value() + 1);
-      } else {
-        box.extend(mesh.places[order[i].index()]);
-      }
+    for (int i = 0; i < blocks; ++i) {
+      box.extend(mesh.places[next->index()]);
+      const NodeId first = *next;
+      for (int k = 0; k < 4; ++k) EXPECT_EQ((next++)->value(), first.value() + k);
     }
-    EXPECT_EQ(box.sizes(), Eigen::Vector3d(3, 3, 3));
-    corners.insert(static_cast<int>(box.min().dot(Eigen::Vector3d(1, 2, 4)) / 4));
+    return box;
+  };
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    EXPECT_TRUE(std::is_sorted(next, next + 16));
+    Eigen::AlignedBox3d plate;
+    for (int i = 0; i < 16; ++i, ++next) {
+      EXPECT_EQ(mesh.blocks[*next], BlockId(512));
+      plate.extend(mesh.places[next->index()]);
+    }
+    EXPECT_EQ(plate.sizes(), Eigen::Vector3d(3, 3, 0));
+    columns.insert(corner(plate));
+    for (int cube = 0; cube < 2; ++cube) {
+      const Eigen::AlignedBox3d box = of_four_nodes(64);
+      EXPECT_EQ(box.sizes(), Eigen::Vector3d(3, 3, 3));
+      EXPECT_EQ(corner(box) % 4, corner(plate));
+      cubes.insert(corner(box));
+    }
   }
-  EXPECT_EQ(corners.size(), 8U);
+  EXPECT_EQ(columns.size(), 4U);
+  EXPECT_EQ(cubes.size(), 8U);
 }
 
 // Rows of K like those of a solid: each has entries at the 27 nodes around its own.
