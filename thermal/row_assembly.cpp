@@ -1,7 +1,11 @@
 #include "thermal/row_assembly.h"
 
+#include <limits>
 #include <numeric>
 
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
 #include "thermal/sparse_sum.h"
 
 namespace scree::thermal {
@@ -23,7 +27,20 @@ void RowSum::append_to(RowChunk& chunk, double factor) {
   row_.clear();
 }
 
+namespace {
+
+void refuse_too_many(const std::vector<RowChunk>& chunks) {
+  std::size_t entries = 0;
+  for (const RowChunk& chunk : chunks) entries += chunk.columns.size();
+  if (entries <= std::numeric_limits<int>::max()) return;
+  throw RunError(fmt::format("a matrix of the nodes has {} entries, more than the {} that can be counted; take coarser meshes",
+                             entries, std::numeric_limits<int>::max()));
+}
+
+}  // namespace
+
 SparseMatrix joined(std::vector<RowChunk> chunks, int size, std::span<const int> order) {
+  refuse_too_many(chunks);
   // Calls use(row, begin, end) with each row of a chunk and where its entries stand in that.
   const auto for_each_row = [&](std::size_t c, const auto& use) {
     for (int i = 0; i < std::ssize(chunks[c].ends); ++i) {

@@ -4,8 +4,10 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "engine/base/threads.h"
 
@@ -37,6 +39,10 @@ class Crew {
     for (int idle = 0; seen != end_; ++idle) {
       if (take_part_in_new(0, seen)) idle = 0;
       wait_a_little(idle);
+    }
+    if (failed_.load(std::memory_order_relaxed)) {
+      failed_.store(false, std::memory_order_relaxed);
+      std::rethrow_exception(std::exchange(failure_, nullptr));
     }
   }
 
@@ -103,10 +109,20 @@ class Crew {
     while (static_cast<int>(ticket & number_mask) < share.end.load(std::memory_order_acquire)) {
       if (!share.next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
       phase = ticket >> phase_shift;
-      work_->task(work_->body, place_of(phase), static_cast<int>(ticket & number_mask));
+      do_task(place_of(phase), static_cast<int>(ticket & number_mask));
       return true;
     }
     return false;
+  }
+
+  // After one that throws the others are not done, but counted, so that the work ends.
+  void do_task(int phase, int number) {
+    if (failed_.load(std::memory_order_relaxed)) return;
+    try {
+      work_->task(work_->body, phase, number);
+    } catch (...) {
+      if (!failed_.exchange(true, std::memory_order_relaxed)) failure_ = std::current_exception();
+    }
   }
 
   // Among those of the work.
@@ -154,6 +170,8 @@ class Crew {
   alignas(64) std::atomic<std::uint64_t> phase_{0};  // written last
   std::atomic<int> threads_{1};                      // that take part
   alignas(64) std::atomic<int> left_{0};             // tasks of the phase that are not known to be done
+  alignas(64) std::atomic<bool> failed_{false};      // read before each task, written only when one has thrown
+  std::exception_ptr failure_;
 };
 
 // Never destroyed: its threads live as long as the process.

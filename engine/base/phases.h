@@ -30,7 +30,8 @@ struct PhasedWork {
 void run_phases(const PhasedWork& work);
 
 // Calls body(phase, number) for sizes[phase] tasks of each phase, on all threads unless it is not to be shared, and that
-// `rounds` times over. The body must not throw.
+// `rounds` times over. What it throws first is thrown on once no thread is at work any more; which tasks were done beside that
+// one is not said.
 template <class Body>
 void run_phases(std::span<const int> sizes, int rounds, const Body& body, bool shared = true) {
   const auto task = [](const void* any, int phase, int number) { (*static_cast<const Body*>(any))(phase, number); };

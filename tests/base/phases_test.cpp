@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -61,6 +62,22 @@ TEST(RunPhases, ATaskThatTakesLongHoldsUpNoOther) {
       EXPECT_EQ(others, 7);
     }
   });
+  use_threads(available_processors());
+}
+
+TEST(RunPhases, ThrowsOnWhatATaskThrowsAndDoesTheNextWorkAsEver) {
+  for (const int threads : {1, 2, 4}) {
+    use_threads(threads);
+    for (int thrower = 0; thrower < 40; ++thrower) {
+      const auto work = [&](int phase, int number) {
+        if (phase == 1 && number == thrower) throw std::runtime_error("no memory");
+      };
+      EXPECT_THROW(run_phases(std::array<int, 3>{40, 40, 40}, 2, work), std::runtime_error) << threads;
+      std::atomic<int> done{0};
+      run_phases(std::array<int, 2>{7, 30}, 3, [&](int, int) { ++done; });
+      EXPECT_EQ(done, 111) << threads;
+    }
+  }
   use_threads(available_processors());
 }
 

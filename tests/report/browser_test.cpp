@@ -9,6 +9,7 @@
 
 #include "engine/base/check.h"
 #include "tests/scenes/scene_run.h"
+#include "tests/temp_folder.h"
 #include "tools/report/report_command.h"
 
 namespace scree::report {
@@ -120,6 +121,17 @@ TEST_F(ReportInABrowser, ChromiumShowsTheHotPileTheCurveAndTheTables) {
   EXPECT_GT(curve.pixels, 300);
   EXPECT_GT(curve.row, hot.row);  // below the pictures
   EXPECT_GT(dark.pixels, 20000);  // text
+}
+
+TEST_F(ReportInABrowser, ADamagedPackingIsSaidInsteadOfAPictureLeftOut) {
+  const test::TempFolder folder;
+  std::filesystem::copy(run_->directory, folder.path() / "run", std::filesystem::copy_options::recursive);
+  std::filesystem::resize_file(folder.path() / "run" / "packing.h5", 1000);
+  ReportArguments arguments;
+  arguments.directory = (folder.path() / "run").string();
+  arguments.page = (folder.path() / "page.html").string();
+  EXPECT_THROW(report_command(arguments), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "page.html"));
 }
 
 TEST_F(ReportInABrowser, WhatIsNoRunIsRefused) {

@@ -27,6 +27,30 @@ report: [heat.time_error]
   EXPECT_THAT(runs[5].overrides, testing::ElementsAre("contact.stiffness_factor=10", "heat.initial=310"));
 }
 
+TEST(ReadStudy, TakesFilesThatAValueNamesHoweverDeepInItFromItsOwnFolder) {
+  const Study study = study_of(R"(
+scene: scene.yaml
+set:
+  - "heat.initial={block: {table: warm.csv}, floor: 20 degC, other: null}"
+  - "heat.boundaries=[{body: floor, temperature: {table: ../t.csv}}, {body: block, temperature: {table: [[0, 300], [9, 310]]}}]"
+vary:
+  - {key: materials.rock.conductivity, values: ["{table: k.csv}", "{table: /k.csv}", "{expression: 1 + T, unit: W/m/K}", "{table"]}
+report: [heat.time_error]
+)");
+  const auto folder = std::filesystem::absolute(study.file).parent_path();
+  const auto quoted = [](const std::filesystem::path& path) { return '"' + path.string() + '"'; };
+  EXPECT_EQ(study.overrides[0],
+            "heat.initial={\"block\": {\"table\": " + quoted(folder / "warm.csv") + "}, \"floor\": \"20 degC\", \"other\": ~}");
+  EXPECT_EQ(study.overrides[1],
+            "heat.boundaries=[{\"body\": \"floor\", \"temperature\": {\"table\": " + quoted(folder.parent_path() / "t.csv") +
+                "}}, {\"body\": \"block\", \"temperature\": {\"table\": [[\"0\", \"300\"], [\"9\", \"310\"]]}}]");
+  const std::vector<Level>& levels = study.factors[0].levels;
+  EXPECT_EQ(levels[0].text, "{\"table\": " + quoted(folder / "k.csv") + "}");
+  EXPECT_EQ(levels[1].text, "{\"table\": \"/k.csv\"}");
+  EXPECT_EQ(levels[2].text, "{expression: 1 + T, unit: W/m/K}");
+  EXPECT_EQ(levels[3].text, "{table");
+}
+
 TEST(ReadStudy, SpacesARangeByDifferencesOrByRatios) {
   const Study study = study_of(R"(
 scene: scene.yaml

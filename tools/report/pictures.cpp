@@ -15,14 +15,15 @@ namespace scree::report {
 
 namespace {
 
-// Middle of the free blocks along y, or of all if none is free; nothing in 2-D.
+// Middle of the free blocks along y, or of all if none is free; nothing in 2-D. Throws InputError for a damaged packing.
 std::optional<double> middle(const run::RunFiles& files) {
   if (!std::filesystem::exists(files.packing())) return std::nullopt;
   mesh::BlockMesh<3> mesh;
   try {
     mesh = packing::placed_mesh(packing::read<3>(files.packing()));
   } catch (const InputError&) {
-    return std::nullopt;  // in 2-D, where there is nothing to cut
+    packing::read<2>(files.packing());
+    return std::nullopt;  // there is nothing to cut
   }
   Aabb<3> free, all;
   for (const mesh::Block& block : mesh.blocks) {

@@ -9,6 +9,7 @@
 #include "engine/base/checked_input.h"
 #include "tools/study/design.h"
 #include "tools/study/given_keys.h"
+#include "tools/study/named_files.h"
 #include "tools/study/study_keys.h"
 
 namespace scree::study {
@@ -52,14 +53,13 @@ class Reader {
     return (fs::absolute(file_).parent_path() / path).lexically_normal();
   }
 
-  // What the scene is told: a file that a value names is relative to this one. A table may be a list.
-  [[nodiscard]] std::string told(const Key& key, const std::string& value) const {
-    const bool file = key.type == KeyType::path || (key.type == KeyType::table && !value.starts_with('['));
-    return file && value != "null" ? in_folder(value).string() : value;
+  // What the scene is told: a file that a value names is relative to this one.
+  [[nodiscard]] std::string told(const KeyNode& node, const std::string& value) const {
+    return with_files_in(fs::absolute(file_).parent_path(), node, value);
   }
 
-  // The row of a scene's key that varies; refuses a path that is none.
-  const Key* varied_key(const Checked& path) {
+  // A scene's key that varies; refuses a path that is none.
+  const KeyNode* varied_key(const Checked& path) {
     if (!path.sound) return nullptr;
     const auto found = scene_path(path.text);
     if (!found) {
@@ -67,7 +67,7 @@ class Reader {
       return nullptr;
     }
     varied_.push_back({path.text, *found, path.where});
-    return found->key;
+    return found->node;
   }
 
   std::string assignment(const Checked& change) {
@@ -79,23 +79,23 @@ class Reader {
       return change.text;
     }
     set_.push_back({change.text, *found, change.where});
-    return fmt::format("{}={}", path, told(*found->key, change.text.substr(equals + 1)));
+    return fmt::format("{}={}", path, told(*found->node, change.text.substr(equals + 1)));
   }
 
   Factor factor(const Checked& varied) {
     Factor factor;
     factor.where = varied.where;
     factor.keys.push_back(varied.at("key").text);
-    const Key* key = varied_key(varied.at("key"));
+    const KeyNode* node = varied_key(varied.at("key"));
     for (const Checked& other : varied.at("also").items) {
       varied_key(other);
       factor.keys.push_back(other.text);
     }
     if (const Checked* values = varied.find("values")) {
-      for (const Checked& value : values->items) factor.levels.push_back(level(value, key));
+      for (const Checked& value : values->items) factor.levels.push_back(level(value, node));
     }
     const Checked* range = varied.find("range");
-    if (range != nullptr && key != nullptr) read_range(*range, *key, factor);
+    if (range != nullptr && node != nullptr) read_range(*range, *node->key, factor);
     refuse_repeated(factor);
     return factor;
   }
@@ -111,12 +111,13 @@ class Reader {
     }
   }
 
-  Level level(const Checked& value, const Key* key) {
+  Level level(const Checked& value, const KeyNode* node) {
     Level level{value.text, std::nullopt, value.where};
-    if (key == nullptr) return level;
-    level.text = told(*key, value.text);
-    if (key->type == KeyType::quantity || key->type == KeyType::integer) {
-      const auto parsed = parse_quantity(value.text, key->quantity);
+    if (node == nullptr) return level;
+    const Key& key = *node->key;
+    level.text = told(*node, value.text);
+    if (key.type == KeyType::quantity || key.type == KeyType::integer) {
+      const auto parsed = parse_quantity(value.text, key.quantity);
       if (const auto* number = std::get_if<double>(&parsed)) level.number = *number;
     }
     return level;
@@ -155,8 +156,8 @@ class Reader {
     Factor factor;
     factor.where = ensemble.where;
     factor.keys.push_back(ensemble.at("key").text);
-    const Key* key = varied_key(ensemble.at("key"));
-    if (key != nullptr && key->type != KeyType::integer) {
+    const KeyNode* node = varied_key(ensemble.at("key"));
+    if (node != nullptr && node->key->type != KeyType::integer) {
       refuse(ensemble.at("key"), "must be a key that takes integers, such as settle.seed or bodies.NAME.random.seed");
     }
     const auto first = static_cast<std::int64_t>(ensemble.at("first").number());

@@ -61,6 +61,7 @@ std::optional<ScenePath> scene_path(const std::string& path) {
     if (node == nullptr) return std::nullopt;
     found.parts.push_back(number.value_or(part));
   }
+  found.node = node;
   found.key = node->key;
   return found.key == nullptr ? std::nullopt : std::optional(found);
 }
