@@ -157,18 +157,25 @@ class Sample {
     double area;  // [m2]
   };
 
-  // The faces that lie on the window's sides; nothing if they leave a part of a side open.
+  // Whether a face lies on a side of the window and looks out of it.
+  [[nodiscard]] bool is_on(const mesh::WeightedFace<dim>& face, int axis, bool high) const {
+    for (const NodeId node : face.nodes) {
+      if (std::abs(high ? below_high(node, axis) : above_low(node, axis)) > rounding_) return false;
+      for (int other = 0; other < dim; ++other) {
+        if (other != axis && std::min(above_low(node, other), below_high(node, other)) < -rounding_) return false;
+      }
+    }
+    return (mesh::area_vector<dim>(mesh_, face.nodes)[axis] > 0) == high;
+  }
+
+  // The faces on the window's sides; nothing if they leave a part of a side open.
   [[nodiscard]] std::optional<std::vector<Side>> sides(const Table<FaceId, mesh::WeightedFace<dim>>& faces) const {
     std::vector<Side> found;
     Eigen::Matrix<double, dim, 2> covered = Eigen::Matrix<double, dim, 2>::Zero();
     for (const FaceId f : faces.ids()) {
       for (int axis = 0; axis < dim; ++axis) {
         for (int high = 0; high < 2; ++high) {
-          bool on = true;
-          for (const NodeId node : faces[f].nodes) {
-            on = on && std::abs(high == 1 ? below_high(node, axis) : above_low(node, axis)) <= rounding_;
-          }
-          if (!on) continue;
+          if (!is_on(faces[f], axis, high == 1)) continue;
           found.push_back({f, axis, high == 1 ? 1.0 : -1.0, faces[f].weight * mesh::face_area(mesh_, faces[f])});
           covered(axis, high) += found.back().area;
         }

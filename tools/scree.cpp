@@ -74,9 +74,10 @@ scree::ProgressMode progress_mode(const Arguments& arguments) {
 }
 
 // A program that follows the run is told of a bad scene in its own way, too.
-scree::Scene read_scene(const std::string& file, const Arguments& arguments, scree::Progress& progress) {
+template <class Read>
+scree::Scene read_scene(const Arguments& arguments, scree::Progress& progress, const Read& read) {
   try {
-    return scree::read_scene(file, arguments.overrides);
+    return read();
   } catch (const scree::InputError& error) {
     if (arguments.json) progress.end({"bad_input", 2, "", {error.what()}});
     throw;
@@ -85,23 +86,29 @@ scree::Scene read_scene(const std::string& file, const Arguments& arguments, scr
 
 int run(const Arguments& arguments) {
   scree::Progress progress(progress_mode(arguments));
-  const scree::Scene scene = read_scene(arguments.scene, arguments, progress);
+  const scree::Scene scene =
+      read_scene(arguments, progress, [&] { return scree::read_scene(arguments.scene, arguments.overrides); });
   const std::string directory = arguments.directory.empty() ? default_directory(arguments.scene) : arguments.directory;
   return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress, space_errors(arguments));
+}
+
+void expect_run(const RunFiles& files) {
+  if (std::error_code ignored; std::filesystem::exists(files.scene(), ignored)) return;
+  scree::Problem problem;
+  problem.key = "directory";
+  problem.value = files.directory.string();
+  problem.rule = "must be that of a run, which holds its scene.yaml";
+  problem.suggestion = "A run that ended before it had one left nothing to go on from: run its scene again";
+  throw scree::InputError(problem);
 }
 
 int resume(const Arguments& arguments) {
   const RunFiles files{arguments.directory};
   scree::Progress progress(progress_mode(arguments));
-  if (std::error_code ignored; !std::filesystem::exists(files.scene(), ignored)) {
-    scree::Problem problem;
-    problem.key = "directory";
-    problem.value = arguments.directory;
-    problem.rule = "must be that of a run, which holds its scene.yaml";
-    problem.suggestion = "A run that ended before it had one left nothing to go on from: run its scene again";
-    throw scree::InputError(problem);
-  }
-  const scree::Scene scene = read_scene(files.scene().string(), arguments, progress);
+  const scree::Scene scene = read_scene(arguments, progress, [&] {
+    expect_run(files);
+    return scree::read_scene(files.scene(), arguments.overrides);
+  });
   return scree::run::run_scene(scene, files, scree::run::Start::resume, progress, space_errors(arguments));
 }
 

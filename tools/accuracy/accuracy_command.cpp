@@ -56,6 +56,7 @@ void read_summary(const RunFiles& files, Measured& measured) {
   std::ifstream stream(files.summary());
   const auto summary = nlohmann::json::parse(stream, nullptr, false);
   if (summary.is_discarded() || !summary.contains("heat")) return;
+  measured.ran = true;
   measured.nodes = summary.at("nodes");
   measured.elements = summary.at("elements");
   measured.steps = summary.at("heat").value("steps", std::int64_t{0});
@@ -97,7 +98,10 @@ class Study {
   [[nodiscard]] Measured make(const Rung& rung, std::size_t number) const {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
-    fs::remove(files.summary());  // of an earlier call; a run that is refused leaves it
+    if (fs::exists(files.summary())) {  // of an earlier call: a run that is refused leaves them, and without its summary the
+      fs::remove(files.scene());        // scene counts as somebody else's
+      fs::remove(files.summary());
+    }
     const RunFiles first{run_directory(0)};
     if (number > 0 && scene_.settle && fs::exists(first.packing())) {
       fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);
@@ -148,11 +152,11 @@ std::vector<Measured> make_all(const Study& study, const std::vector<Rung>& ladd
 // is worth knowing.
 std::string compare_all(const Study& study, std::size_t finest_run, std::vector<Measured>& runs) {
   const auto probes = [&](std::size_t i) { return output::read_probe_history(RunFiles{study.run_directory(i)}.probes()); };
-  const bool has_finest = finest_run < runs.size();
+  const bool has_finest = finest_run < runs.size() && runs[finest_run].ran;
   const ProbeHistory best = has_finest ? probes(finest_run) : ProbeHistory{};
   bool exact = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].steps == 0) continue;
+    if (!runs[i].ran) continue;
     const ProbeHistory history = probes(i);
     exact = exact || !history.exact.empty();
     if (exact) {
@@ -218,7 +222,8 @@ int run(const Arguments& arguments) {
   const Study study(arguments, scene, directory);
   std::vector<Measured> runs = make_all(study, ladder, progress);
   const std::size_t finest_run = finest(ladder);
-  if (finest_run < runs.size() && runs[finest_run].steps == 0) {
+  const bool exact = std::any_of(scene.probes.begin(), scene.probes.end(), [](const auto& probe) { return probe.exact; });
+  if (finest_run < runs.size() && !runs[finest_run].ran && !exact) {
     throw RunError(fmt::format("the finest run has failed; see {}", (study.run_directory(finest_run) / "log").string()));
   }
   if (!runs.empty()) conclude(study, directory, finest_run, runs);
@@ -226,7 +231,7 @@ int run(const Arguments& arguments) {
     fmt::print(stderr, "scree: interrupted after {} of {} runs\n", runs.size(), ladder.size());
     return 130;
   }
-  const bool all_ran = std::all_of(runs.begin(), runs.end(), [](const Measured& run) { return run.steps > 0; });
+  const bool all_ran = std::all_of(runs.begin(), runs.end(), [](const Measured& run) { return run.ran; });
   return all_ran ? 0 : 1;
 }
 

@@ -18,7 +18,7 @@ std::string word(const std::string& model) {
   return model.empty() ? "-" : model;
 }
 
-// Both panels, with the runs that no other beats joined by a line. %1 is the table, %2 the picture.
+// Both panels, the runs that no other beats filled. Of the table {csv} and for the picture {picture}.
 constexpr const char* plot = R"(set terminal pngcairo size 1200,520 font "DejaVu Sans,12" background "white"
 set output {picture}
 set datafile separator comma
@@ -66,9 +66,9 @@ std::string to_text(const std::vector<Measured>& runs, const std::vector<Order>&
                         run.rung.mesh_factor, run.rung.tolerance, run.rung.integrator, word(run.rung.contact_model),
                         word(run.rung.block_model), run.nodes, run.steps, run.wall_seconds, run.time_error,
                         run.lumping_error > 0 ? fmt::format("{:.3g}", run.lumping_error) : "-",
-                        run.max_error                         ? fmt::format("{:.3g}", *run.max_error)
-                        : run.steps > 0 && !reference.empty() ? "reference"
-                                                              : "-",
+                        run.max_error                   ? fmt::format("{:.3g}", *run.max_error)
+                        : run.ran && !reference.empty() ? "reference"
+                                                        : "-",
                         run.exit_status != 0 ? fmt::format("exit {}", run.exit_status)
                         : run.on_front       ? "*"
                                              : "");

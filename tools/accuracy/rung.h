@@ -19,6 +19,7 @@ struct Rung {
 struct Measured {
   Rung rung;
   int exit_status = 0;
+  bool ran = false;  // it has temperatures
   std::int64_t nodes = 0;
   std::int64_t elements = 0;
   std::int64_t steps = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -17,11 +18,13 @@ namespace {
 const scree::contact::Contact<3>& busiest(const scree::Heating<3>& heating) {
   const std::vector<double> flows = heating.contact_flows();
   const auto most = std::max_element(flows.begin(), flows.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  if (most == flows.end()) throw std::runtime_error("no two blocks touch");
   return heating.pile().contacts.contacts[static_cast<std::size_t>(most - flows.begin())];
 }
 
 void sweep(const std::string& file) {
   const auto packing = scree::make_packing<3>(scree::read_scene(file));
+  if (!packing.settled) throw std::runtime_error("the scene's blocks do not fall");
   fmt::print("{} blocks, {:.3f} m high\n", packing.mesh.blocks.size(), packing.settled->top);
   for (const int beta : {1, 10, 100}) {
     // Everything a scene file may say can be said here as well, checked in the same way.

@@ -13,7 +13,8 @@ namespace scree::report {
 
 namespace {
 
-constexpr double width = 860, height = 380;                      // of the drawing, in its own units
+constexpr double width = 860, height = 380;  // of the drawing, in its own units
+constexpr double name_height = 20;
 constexpr double left = 92, right = 170, top = 14, bottom = 52;  // margins; the names of the curves stand on the right
 
 // Told apart by those who see colours otherwise, too (Okabe and Ito).
@@ -80,8 +81,9 @@ std::vector<double> ticks(double low, double high) {
   const double power = std::pow(10, std::floor(std::log10(high - low)));
   for (const double factor : {0.2, 0.5, 1.0, 2.0, 5.0, 10.0}) {
     const double step = factor * power;
-    const double first = std::floor(low / step * (1 + 1e-12));
-    const double last = std::ceil(high / step * (1 - 1e-12));
+    constexpr double rounding = 1e-9;
+    const double first = std::floor(low / step + rounding);
+    const double last = std::ceil(high / step - rounding);
     if (last - first > 6) continue;
     std::vector<double> marks;
     for (double k = first; k <= last; ++k) marks.push_back(k * step);
@@ -100,12 +102,12 @@ std::string to_svg(const Chart& chart) {
       "<svg viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\">\n"
       "<style>text {{ font: 13px system-ui, sans-serif; fill: currentColor }} .grid {{ stroke: #8886; stroke-width: 1 "
       "}}</style>\n",
-      width, height);
+      width, std::max(height, top + name_height * static_cast<double>(chart.curves.size() + 1)));
   svg += grid(x, y);
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const char* colour = colours[i % colours.size()];
     svg += drawn(chart.curves[i], x, y, colour, chart.points);
-    const double row = top + 14 + 20 * static_cast<double>(i);
+    const double row = top + 14 + name_height * static_cast<double>(i);
     svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"4\" fill=\"{}\"/>\n", x.to + 14, row - 6, colour);
     svg += text_at(x.to + 34, row, "start", chart.curves[i].name);
   }

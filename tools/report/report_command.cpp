@@ -25,7 +25,7 @@ int report_command(const ReportArguments& arguments) {
                             : arguments.animations     ? Pictures::animated
                                                        : Pictures::still;
   const std::filesystem::path page = arguments.page.empty() ? directory / "report.html" : std::filesystem::path(arguments.page);
-  run::check_output_place("--page", page, {".html", ".htm"});
+  if (!arguments.page.empty()) run::check_output_place("--page", page, {".html", ".htm"});
   write_text(page, study ? study_page(directory) : run_page({directory}, pictures));
   fmt::print("{}\n", page.string());
   return 0;

@@ -95,6 +95,7 @@ void add_probes(Page& page, const run::RunFiles& files) {
     for (const double value : kelvin) curve.y.push_back(value - 273.15);
     chart.curves.push_back(curve);
   };
+  chart.points = history.times.size() == 1;  // no line to draw
   for (const auto& [name, values] : history.values) add(name, values, false);
   for (const auto& [name, values] : history.exact) add(name + ", exact", values, true);
   page.heading("Temperature at the probes");

@@ -90,7 +90,13 @@ struct Axes {
   std::vector<std::size_t> figures;
 };
 
+// Nothing if the first key that varies, whose column is the one after the point's, takes words.
 std::optional<Axes> find_axes(const std::vector<Row>& rows) {
+  const auto point = std::find(rows.front().begin(), rows.front().end(), "point");
+  if (point != rows.front().end()) {
+    const auto first = column(rows, static_cast<std::size_t>(point - rows.front().begin()) + 1);
+    if (std::none_of(first.begin(), first.end(), [](double value) { return std::isfinite(value); })) return std::nullopt;
+  }
   std::optional<Axes> axes;
   for (std::size_t number = 0; number < rows.front().size(); ++number) {
     const auto values = column(rows, number);

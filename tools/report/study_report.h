@@ -6,8 +6,8 @@
 
 namespace scree::report {
 
-// The tables of the study, a chart of every reported figure against the first key that varies, and the pictures that lie in its
-// directory. Throws InputError for a table that cannot be read.
+// The tables of the study, a chart of every reported figure against the first key that varies unless that takes words, and the
+// pictures that lie in its directory. Throws InputError for a table that cannot be read.
 std::string study_page(const std::filesystem::path& directory);
 
 }  // namespace scree::report

@@ -28,7 +28,8 @@ struct Measured {
   const mesh::BlockMesh<3>& mesh;  // placed
   packing::Columns columns;        // of the mesh turned upright
   std::vector<TouchingPair> pairs;
-  std::vector<bool> inner;  // of each block: it is free and its centre lies in the inner region
+  std::vector<bool> counted;  // of each block: it is free and still in the scene
+  std::vector<bool> inner;    // and its centre lies in the inner region
 };
 
 mesh::BlockMesh<3> upright(mesh::BlockMesh<3> mesh, const Eigen::Vector3d& gravity) {
@@ -53,10 +54,11 @@ bool free_block(const mesh::BlockMesh<3>& mesh, BlockId block) {
   return !mesh.bodies[mesh.blocks[block].body].fixed;
 }
 
-std::vector<bool> inner_blocks(const mesh::BlockMesh<3>& mesh, const packing::Columns& columns) {
+std::vector<bool> inner_blocks(const mesh::BlockMesh<3>& mesh, const packing::Columns& columns,
+                               const std::vector<bool>& counted) {
   std::vector<bool> inner(mesh.blocks.size());
   for (const BlockId block : mesh.blocks.ids()) {
-    if (!free_block(mesh, block)) continue;
+    if (!counted[block.index()]) continue;
     const Eigen::Vector3d centre = centre_of(mesh, block);
     const auto line = columns.nearest(centre.head<2>());
     const auto part = line ? packing::inner_part(columns, *line) : std::nullopt;
@@ -90,7 +92,7 @@ Json coordination_json(const Measured& measured) {
   }
   double inner = 0, inner_blocks = 0, all = 0, blocks = 0, untouched = 0;
   for (const BlockId block : measured.mesh.blocks.ids()) {
-    if (!free_block(measured.mesh, block)) continue;
+    if (!measured.counted[block.index()]) continue;
     const double count = neighbours[block.index()];
     all += count;
     ++blocks;
@@ -183,10 +185,14 @@ Json certificate(const Scene& scene, const packing::Packing<3>& packing) {
   const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
   const mesh::BlockMesh<3> turned = upright(placed, scene.settle->options.gravity);
   const packing::PieceSet pieces(turned);
-  Measured measured{turned, packing::cut_by_lines(turned, pieces, packing.settled->lost_blocks), {}, {}};
+  const std::vector<BlockId>& lost = packing.settled->lost_blocks;
+  const auto is_lost = [&lost](BlockId block) { return std::binary_search(lost.begin(), lost.end(), block); };
+  Measured measured{turned, packing::cut_by_lines(turned, pieces, lost), {}, {}, {}};
+  for (const BlockId block : turned.blocks.ids()) measured.counted.push_back(free_block(turned, block) && !is_lost(block));
   const double size = measured.columns.size;
   measured.pairs = packing::touching_pairs(pieces, {touching_range * size, lean_degrees * std::numbers::pi / 180});
-  measured.inner = inner_blocks(turned, measured.columns);
+  std::erase_if(measured.pairs, [&](const TouchingPair& pair) { return is_lost(pair.first) || is_lost(pair.second); });
+  measured.inner = inner_blocks(turned, measured.columns, measured.counted);
   const auto repose = packing::angle_of_repose(measured.columns);
   Json json{{"block_size", size},
             {"touching_range", touching_range * size},

@@ -26,7 +26,7 @@ std::vector<fs::path> missing(const fs::path& directory) {
 
 Claim::Claim(const RunFiles& files) : made_(missing(files.directory)) {
   make_output_folder(files.directory);
-  if (!fs::exists(files.lock())) made_.insert(made_.begin(), files.lock());
+  if (std::error_code ignored; !fs::exists(files.lock(), ignored)) made_.insert(made_.begin(), files.lock());
   lock_ = FileLock::take(files.lock(), FileLock::Kind::exclusive, FileLock::Heirs::none);
   if (!lock_) throw RunError(fmt::format("{}: another run writes there. Choose another --out", files.directory.string()));
 }

@@ -23,6 +23,12 @@ std::string gnuplot_text(const std::string& text) {
 
 namespace {
 
+// As a shell has it.
+int status_of(int waited) {
+  constexpr int by_signal = 128;
+  return WIFEXITED(waited) ? WEXITSTATUS(waited) : by_signal + WTERMSIG(waited);
+}
+
 void draw(const std::string& commands) {
   constexpr int no_such_command = 127;  // of a shell
   const RunError not_started("gnuplot could not be started. Run tools/setup, or apt-get install gnuplot-nox");
@@ -30,8 +36,8 @@ void draw(const std::string& commands) {
   std::FILE* gnuplot = popen("gnuplot", "w");
   if (gnuplot == nullptr) throw not_started;
   const bool taken = std::fputs(commands.c_str(), gnuplot) >= 0 && std::fflush(gnuplot) == 0;
-  const int status = pclose(gnuplot);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == no_such_command) throw not_started;
+  const int status = status_of(pclose(gnuplot));
+  if (status == no_such_command) throw not_started;
   if (status != 0 || !taken) throw RunError(fmt::format("gnuplot failed with status {}; what it said stands above", status));
 }
 

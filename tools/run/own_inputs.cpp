@@ -60,7 +60,8 @@ void refuse_own_inputs(const Scene& scene, const RunFiles& files) {
            fmt::format("must not be where {} lies, which the run reads: its results would take that place", file.string()),
            "Choose another --out");
   }
-  if (fs::exists(files.scene()) && !fs::exists(files.summary())) {
+  std::error_code ignored;
+  if (fs::exists(files.scene(), ignored) && !fs::exists(files.summary(), ignored)) {
     refuse(files, "holds a scene.yaml that no run has left, and a run writes its scene there, with every default filled in",
            "Choose another --out, or another name for that file");
   }

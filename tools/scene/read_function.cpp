@@ -73,4 +73,12 @@ Curve read_curve(const Checked& value, Problems& problems) {
   return read_forms<Curve>(value, problems);
 }
 
+void check_lasts(const Function& function, const thermal::HeatOptions& options, Problems& problems) {
+  try {
+    function.check_time(0, options.time.steady ? 0 : options.time.until);
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
 }  // namespace scree

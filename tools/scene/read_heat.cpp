@@ -150,15 +150,8 @@ auto functions_of(const thermal::Radiation& c) {
   return std::tie(c.emissivity, c.surroundings);
 }
 
-// A table over time has to last as long as the run.
 void check_times(const thermal::HeatOptions& options, Problems& problems) {
-  const auto check = [&](const Function& function) {
-    try {
-      function.check_time(0, options.time.steady ? 0 : options.time.until);
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  };
+  const auto check = [&](const Function& function) { check_lasts(function, options, problems); };
   const auto check_all = [&](const auto&... functions) { (check(functions), ...); };
   for (const thermal::Boundary& boundary : options.boundaries) {
     std::visit([&](const auto& condition) { std::apply(check_all, functions_of(condition)); }, boundary.condition);

@@ -108,6 +108,9 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   }
   scene.frames_every = read_frames_every(checked.at("output"), problems);
   scene.probes = read_probes(checked.at("output"), problems);
+  for (const output::ProbeSpec& probe : scene.probes) {
+    if (probe.exact && scene.heat) check_lasts(*probe.exact, *scene.heat, problems);
+  }
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));
   collect_tables(checked, scene.tables);

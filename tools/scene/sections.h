@@ -31,6 +31,8 @@ void check_needs(const Scene& scene, const Checked& checked, Problems& problems)
 
 // A quantity of place and time, or of temperature, in any of its forms.
 Function read_function(const Checked& value, Problems& problems);
+// A table over time has to last as long as the run.
+void check_lasts(const Function& function, const thermal::HeatOptions& options, Problems& problems);
 Curve read_curve(const Checked& value, Problems& problems);
 
 // How a body is turned; not at all without a rotation.

@@ -149,7 +149,8 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
   const Outcome outcome = read_outcome(files_, run.directory);
   largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
   // What ended a process from outside need not end the next one, nor what is wrong with this run's own values.
-  if (active.settling && outcome.status != "crashed" && outcome.status != "bad_input") {
+  const bool ended_from_outside = outcome.status == "crashed" || outcome.status == "interrupted";
+  if (active.settling && !ended_from_outside && outcome.status != "bad_input") {
     failed_packings_[run.packing] =
         fmt::format("its packing is that of run {}, which has none: {}", run.number, outcome.reason);
   }

@@ -19,8 +19,8 @@ struct Statistics {
 // Over the values that are not missing; NaN where there are too few.
 Statistics statistics_of(const std::vector<double>& values);
 
-// A row per combination: what varies but the ensemble, how many members are complete, and for every figure reported
-// NAME.count, .mean, .deviation, .low and .high over these.
+// A row per combination: what varies but the ensemble, and for every figure reported NAME.count, .mean, .deviation, .low and
+// .high over the members that are complete.
 Table ensembles_of(const Study& study, const Table& runs);
 
 }  // namespace scree::study

@@ -19,7 +19,7 @@ Json read_json(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) return {};
   Json json = Json::parse(stream, nullptr, false);
-  return json.is_discarded() ? Json() : json;
+  return json.is_object() ? json : Json();
 }
 
 std::string last_line(const fs::path& log) {
