@@ -197,11 +197,25 @@ class Sample {
     return largest <= 1e-9 * load.lpNorm<1>();
   }
 
+  // Whether blocks outside the window are joined with the faces on its sides: heat would go round it.
+  [[nodiscard]] bool goes_round(const std::vector<Side>& sides, const Table<FaceId, mesh::WeightedFace<dim>>& faces) const {
+    std::vector<bool> passed(rows_.size());
+    const auto group_of = [&](NodeId node) { return group_[model_.rows[node].index()]; };
+    for (const Side& side : sides) passed[group_of(faces[side.face].nodes[0])] = true;
+    const auto ids = mesh_.nodes.ids();
+    return std::any_of(ids.begin(), ids.end(), [&](NodeId node) {
+      double inside = rounding_;
+      for (int axis = 0; axis < dim; ++axis) inside = std::min({inside, above_low(node, axis), below_high(node, axis)});
+      return inside < -rounding_ && passed[group_of(node)];
+    });
+  }
+
   [[nodiscard]] std::optional<Tensor> uniform_flux() {
     const auto faces = mesh::weighted_faces(mesh_);
     const auto found = sides(faces);
     if (!found) return std::nullopt;
     hold([](NodeId) { return false; });
+    if (goes_round(*found, faces)) return std::nullopt;
     Tensor resistivity = Tensor::Zero();  // [m K/W]
     for (int axis = 0; axis < dim; ++axis) {
       Eigen::VectorXd load = Eigen::VectorXd::Zero(model_.capacity.size());

@@ -145,7 +145,8 @@ InputValue parse_yaml(const std::string& text, const std::string& name) {
 }
 
 InputValue read_yaml(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) refuse({file.string(), 0, 0}, "not readable", "a folder", "");
+  std::error_code said_below;
+  if (std::filesystem::is_directory(file, said_below)) refuse({file.string(), 0, 0}, "not readable", "a folder", "");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse({file.string(), 0, 0}, "not readable", std::strerror(errno), "");
   return parse_yaml(whole_text(stream, file), file.string());

@@ -31,7 +31,8 @@ std::vector<std::vector<std::size_t>> polygons(const SimplexMesh<2>& base) {
 }  // namespace
 
 SimplexMesh<2> grid_of(const BodySpec& body, const Box& box) {
-  expect_reasonable(body, 2 * box.size.x() * box.size.y() / (body.mesh_size * body.mesh_size));
+  const double along = std::max(1.0, box.size.x() / body.mesh_size), across = std::max(1.0, box.size.y() / body.mesh_size);
+  expect_reasonable(body, 2 * along * across);
   const std::size_t columns = steps(box.size.x(), body.mesh_size), rows = steps(box.size.y(), body.mesh_size);
   RawMesh raw;
   for (std::size_t j = 0; j <= rows; ++j) {

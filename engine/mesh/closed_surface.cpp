@@ -168,6 +168,9 @@ void check_hollows(const BodySpec& body, const Parts<3>& parts) {
 
 Parts<3> fill_surface(const BodySpec& body, RawMesh raw) {
   drop_collapsed(raw);
+  if (raw.triangles.empty()) {
+    throw file_error(body, "all of its triangles are flat", "Repair the surface, for instance with Meshlab");
+  }
   DisjointSets joined = connect(body, raw);
   Parts<3> parts;
   try {

@@ -152,6 +152,12 @@ void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMes
                          pose.rotation});
 }
 
+// How a body breaks into blocks decides what is asked of a mesh file (volume_mesh.h).
+bool gives_same_mesh(const BodySpec& a, const BodySpec& b) {
+  const bool asked_the_same = a.blocks == b.blocks || !std::holds_alternative<MeshFile>(a.shape);
+  return a.shape == b.shape && a.mesh_size == b.mesh_size && a.cells == b.cells && asked_the_same;
+}
+
 }  // namespace
 
 template <int dim>
@@ -159,9 +165,8 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
   BlockMesh<dim> mesh;
   std::vector<Parts<dim>> meshed;  // as `bodies`; a shape that comes again is not meshed again
   for (const BodySpec& body : bodies) {
-    const auto same = std::find_if(
-        bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(meshed.size()),
-        [&](const BodySpec& b) { return b.shape == body.shape && b.mesh_size == body.mesh_size && b.cells == body.cells; });
+    const auto same = std::find_if(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(meshed.size()),
+                                   [&](const BodySpec& b) { return gives_same_mesh(b, body); });
     const auto before = static_cast<std::size_t>(same - bodies.begin());
     meshed.push_back(before < meshed.size() ? meshed[before] : mesh_parts<dim>(body, readers));
     const Parts<dim>& whole = meshed.back();

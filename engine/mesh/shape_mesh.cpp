@@ -117,6 +117,30 @@ double volume(const Cylinder& cylinder) {
   return std::numbers::pi / 4 * cylinder.diameter * cylinder.diameter * cylinder.height;
 }
 
+// Of its outside [m2], in 2-D [m].
+template <int dim>
+double outside(const Box& box) {
+  const Eigen::Vector3d& s = box.size;
+  return dim == 2 ? 2 * (s.x() + s.y()) : 2 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
+}
+template <int dim>
+double outside(const Sphere& sphere) {
+  return std::numbers::pi * (dim == 2 ? sphere.diameter : sphere.diameter * sphere.diameter);
+}
+template <int dim>
+double outside(const Cylinder& cylinder) {
+  return std::numbers::pi * cylinder.diameter * (cylinder.height + cylinder.diameter / 2);
+}
+
+// A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed. What is thin has one
+// for every two triangles, in 2-D edges, of its outside at least.
+template <int dim, class ShapeType>
+double expected_elements(const ShapeType& shape, double size) {
+  const double within = volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(size, dim));
+  const double outside_it = outside<dim>(shape) / ((dim == 2 ? 1 : 0.43) * std::pow(size, dim - 1));
+  return std::max(within, outside_it / 2);
+}
+
 template <int dim>
 double extent(const Box& box) {
   return box.size.head<dim>().maxCoeff();
@@ -133,8 +157,7 @@ double extent(const Cylinder& cylinder) {
 // Triangles or tetrahedra, or quadrilaterals if the body asks for them.
 template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
-  // A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
-  expect_reasonable(body, volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(body.mesh_size, dim)));
+  expect_reasonable(body, expected_elements<dim>(shape, body.mesh_size));
   // Far beyond the shape, a size spoils the coarsest mesh instead of making it coarser.
   const double size = std::min(body.mesh_size, extent<dim>(shape));
   // A thin plate's two sides come out alike from the frontal mesher, and nodes straight above each other make slivers, which

@@ -183,6 +183,12 @@ TEST_F(MeshFiles, ASurfaceWithAFinIsRefused) {
             "Repair the surface, for instance with Meshlab");
 }
 
+TEST_F(MeshFiles, ASurfaceOfCollapsedTrianglesAloneIsRefused) {
+  const std::vector<FileCell> collapsed{{Kind::triangle, {1, 2, 2}}, {Kind::triangle, {2, 1, 1}}};
+  EXPECT_EQ(refusal("collapsed.msh", msh_text({{0, 0, 0}, {1, 0, 0}}, collapsed)),
+            "(all of its triangles are flat). Repair the surface, for instance with Meshlab");
+}
+
 TEST_F(MeshFiles, AHollowSurfaceIsRefused) {
   Points inner = cube_points();
   for (auto& point : inner) {
@@ -286,6 +292,9 @@ TEST_F(MeshFiles, ElementsThatDoNotFitTogetherAreNamed) {
   BodySpec broken = body_with("broken.msh", text);
   broken.blocks = BlockRule::per_element;
   EXPECT_EQ(make_blocks<3>({broken}).blocks.size(), 4u);
+  BodySpec whole = broken;
+  whole.blocks = BlockRule::whole;
+  EXPECT_THROW(make_blocks<3>({broken, whole}), InputError);
 }
 
 TEST_F(MeshFiles, ALongEdgeBesideShortOnesIsNamed) {

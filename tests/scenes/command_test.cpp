@@ -110,6 +110,32 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
 }
 
+TEST(Command, MakesALadderAgainIntoItsFolder) {
+  const std::string ladder = "accuracy " + scene("slab") + " --quiet --mesh 2 1 --tolerance \"1 K\" --set heat.until=\"10 s\"";
+  const auto directory = fresh_directory("accuracy_twice");
+  for (int i = 0; i < 2; ++i) {
+    const Outcome outcome = scree(ladder + " --out " + directory.string());
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+  }
+  const std::string table = contents(directory / "accuracy.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+}
+
+// A steady state that is there from the start takes no step, and is a run all the same.
+TEST(Command, TellsTheErrorsOfRunsThatNeedNoStep) {
+  const auto directory = fresh_directory("accuracy_of_no_step");
+  std::ofstream(directory / "warm.yaml") << R"(
+dimension: 2
+materials: {rock: {density: 2500, conductivity: 3, specific_heat: 880}}
+bodies: {a: {box: {size: [1, 1], centre: [0, 0]}, material: rock, mesh_size: 0.3}}
+heat: {initial: 300, steady: true, boundaries: [{body: a, temperature: 300}]}
+output: {probes: {p: {point: [0, 0], exact: 300}}}
+)";
+  const Outcome outcome =
+      scree("accuracy " + (directory / "warm.yaml").string() + " --quiet --mesh 1 0.5 --out " + (directory / "out").string());
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+}
+
 // Stops the command when a run of it has begun: the second one unless told.
 Outcome interrupted_accuracy(const std::string& scene_name, const std::filesystem::path& directory,
                              const std::string& run = "run_01") {

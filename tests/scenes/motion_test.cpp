@@ -150,6 +150,9 @@ output: {every: 100 s}
   EXPECT_EQ(beside.exit_status, 0);
   EXPECT_EQ(beside.summary["settle"]["lost_blocks"], 1);
   EXPECT_EQ(beside.summary["settle"]["lost"][0]["block"], 1);
+  for (const char* figure : {"contacts", "coordination"}) {
+    EXPECT_EQ(beside.summary["settle"]["certificate"][figure], alone.summary["settle"]["certificate"][figure]) << figure;
+  }
   const auto ledgers = {alone.summary["heat"]["ledger"], beside.summary["heat"]["ledger"]};
   for (const auto& [kind, name] : {std::pair("by_applied", "flow"), {"by_surroundings", "air"}}) {
     const double expected = ledgers.begin()[0][kind][name];

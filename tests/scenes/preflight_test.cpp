@@ -163,5 +163,14 @@ TEST(Preflight, ARunThatIsRefusedLeavesAnEarlierResultAsItIs) {
   EXPECT_EQ(files(), before);
 }
 
+TEST(ExactValuesOfProbes, AreAskedForBeforeAnyWork) {
+  EXPECT_EQ(refused(still, "output.probes.p={point: [0, 0, 0.1], exact: 300}"), "");
+  EXPECT_THAT(refused(still, "output.probes.p={point: [0, 0, 0.1], exact: {expression: log(t), unit: K}}"),
+              HasSubstr("output.probes.p.exact"));
+  EXPECT_THROW(
+      read_scene_text(still, ".", {"output.probes.p={point: [0, 0, 0.1], exact: {table: [[50 s, 300], [60 s, 300]]}}"}),
+      InputError);
+}
+
 }  // namespace
 }  // namespace scree::test

@@ -135,6 +135,41 @@ TYPED_TEST(Homogenised, BlocksThatTouchNothingConductNothing) {
   EXPECT_FALSE(found.lower);  // no uniform flux passes
 }
 
+// Of two squares (cubes) apart, in one plane: what lies outside the window counts neither as its side nor as a way round it.
+TYPED_TEST(Homogenised, OneOfTwoSolidsInAPlaneIsItself) {
+  constexpr int dim = TypeParam::value;
+  std::vector<test::Slab<dim>> cubes(2);
+  for (test::Slab<dim>& cube : cubes) {
+    cube.size.setConstant(edge);
+    cube.cells.fill(2);
+  }
+  cubes[1].low[0] = 3 * edge;
+  const auto mesh = test::slab_mesh<dim>(cubes);
+  const auto model = make_heat_model(mesh, test::rock_only(), contact::ContactSet<dim>(), test::options_for(mesh, 300));
+  const auto found = effective_conductivity(mesh, test::rock_only(), model, window<dim>(0, edge));
+  ASSERT_TRUE(found.lower);
+  EXPECT_LT((*found.lower - k * EffectiveConductivity<dim>::Tensor::Identity()).norm(), 1e-9);
+}
+
+TYPED_TEST(Homogenised, AWindowThatBlocksAroundItAreJoinedWithHasNoLowerBound) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(3, beta);
+  EXPECT_FALSE(effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(edge, 2 * edge)).lower);
+}
+
+// Faces on the planes of all sides, but none on a side.
+TEST(EffectiveConductivity, ACrossOfBlocksAroundAWindowIsNoneOfItsSides) {
+  std::vector<test::Slab<2>> squares(3);
+  for (test::Slab<2>& square : squares) square.cells.fill(2);
+  squares[0].low = {0.4, 0.4};
+  squares[0].size = {0.2, 0.2};
+  squares[1].low = {0, 5};
+  squares[2].low = {5, 0};
+  const auto mesh = test::slab_mesh<2>(squares);
+  const auto model = make_heat_model(mesh, test::rock_only(), contact::ContactSet<2>(), test::options_for(mesh, 300));
+  EXPECT_FALSE(effective_conductivity(mesh, test::rock_only(), model, window<2>(0, 1)).lower);
+}
+
 TYPED_TEST(Homogenised, AWindowWithoutAnElementIsRefused) {
   constexpr int dim = TypeParam::value;
   const auto rock = jointed_rock<dim>(1, beta);
