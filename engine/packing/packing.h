@@ -17,7 +17,7 @@ struct SettleReport {
   double simulated_time = 0;    // [s]
   double rms_speed = 0;         // over free blocks, at the end [m/s]
   double max_speed = 0;         // fastest free block at the end [m/s]
-  double unbalanced_force = 0;  // mean net force on a block over mean contact force on a block, at the end [-]
+  double unbalanced_force = 0;  // mean net force on a block over mean force of a touching pair, at the end [-]
   double max_displacement = 0;  // of any free block over the last window [m]
   double window = 0;            // that window [s]
   double max_penetration = 0;   // over all pairs, on the true geometry [m]
@@ -25,7 +25,7 @@ struct SettleReport {
   // Deepest overlap of two blocks at any time of the fall, over the size (cube root of the volume) of the smaller [-].
   double deepest_overlap = 0;
   double mean_edge = 0;  // of the free blocks' elements [m]
-  double top = 0;        // highest point of a free block, against gravity, above the highest fixed point under the blocks [m]
+  double top = 0;        // highest point of a free block, against gravity, above what is fixed below it (scene_bounds.h) [m]
   Table<BlockId, double> net_force;  // on each block in the last step; 0 on fixed and lost ones [N]
   std::vector<BlockId> lost_blocks;  // left the scene; frozen where they left it
 };

@@ -5,7 +5,6 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "engine/base/phases.h"
-#include "engine/mesh/disjoint_sets.h"
 #include "engine/rigid/homes.h"
 #include "engine/rigid/rest.h"
 

@@ -206,8 +206,8 @@ Keys settle_keys() {
           .fallback(with_unit(by_default.release_time, "s")),
       row("settle.rest_speed", quantity, "Root mean square speed below which the pile may be at rest.", q::speed, positive)
           .fallback(with_unit(by_default.rest_speed, "m/s")),
-      row("settle.rest_unbalanced_force", quantity, "Largest mean net force over mean contact force on a block at rest.",
-          q::number, positive)
+      row("settle.rest_unbalanced_force", quantity,
+          "Largest mean net force on a block over the mean force of a touching pair at rest.", q::number, positive)
           .fallback(fmt::format("{}", by_default.rest_unbalanced_force)),
       row("settle.rest_displacement", quantity, "Largest way of a block in a window, over the mean edge, at rest.", q::number,
           positive)
