@@ -133,7 +133,7 @@ int check(const Arguments& arguments) {
 }
 
 std::string keys_that_begin_with(const std::string& prefix) {
-  const std::string text = scree::key_reference(scree::scene_keys(), prefix);
+  std::string text = scree::key_reference(scree::scene_keys(), prefix);
   if (!text.empty()) return text;
   std::vector<std::string> known;
   for (const scree::Key& key : scree::scene_keys().keys()) known.push_back(key.path);
