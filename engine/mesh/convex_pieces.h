@@ -33,8 +33,9 @@ struct ConvexPiece {
 };
 
 // One piece if the block is convex, otherwise one tetrahedron per element. A block counts as convex if its boundary is one
-// closed surface on which no edge is indented by more than a thousandth of the edges beside it: a meshed sphere may have
-// such dents where the mesher chose the other diagonal of four nearly concyclic points.
+// closed surface on which no edge is indented by more than a thousandth of the edges beside it, nor any point above a triangle
+// by more than that of the longest: a meshed sphere may have such dents where the mesher chose the other diagonal of four
+// nearly concyclic points.
 std::vector<ConvexPiece> convex_pieces(const BlockMesh<3>& mesh, BlockId block);
 
 // Of each node of a block the directions in which the edges of the block's surface leave it; none inside.

@@ -10,7 +10,8 @@
 
 namespace scree::mesh {
 
-// By which an edge may be indented in what counts as convex, of the length of the edges beside it.
+// By which an edge may be indented in what counts as convex, of the length of the edges beside it, and a point lie above any
+// triangle, of the longest edge.
 constexpr double allowed_dent = 1e-3;
 
 // Closed, but not always in one piece.
