@@ -75,9 +75,8 @@ class Sample {
 
   [[nodiscard]] double above_low(NodeId node, int axis) const { return mesh_.nodes[node][axis] - window_.min()[axis]; }
   [[nodiscard]] double below_high(NodeId node, int axis) const { return window_.max()[axis] - mesh_.nodes[node][axis]; }
-  [[nodiscard]] bool beyond(NodeId node, int axis) const {
-    return above_low(node, axis) <= rounding_ || below_high(node, axis) <= rounding_;
-  }
+  [[nodiscard]] double depth(NodeId node, int axis) const { return std::min(above_low(node, axis), below_high(node, axis)); }
+  [[nodiscard]] bool beyond(NodeId node, int axis) const { return depth(node, axis) <= rounding_; }
 
   // Holds the rows whose node `held` chooses, and one row of every group of blocks that would hold none.
   template <class Held>
@@ -162,7 +161,7 @@ class Sample {
     for (const NodeId node : face.nodes) {
       if (std::abs(high ? below_high(node, axis) : above_low(node, axis)) > rounding_) return false;
       for (int other = 0; other < dim; ++other) {
-        if (other != axis && std::min(above_low(node, other), below_high(node, other)) < -rounding_) return false;
+        if (other != axis && depth(node, other) < -rounding_) return false;
       }
     }
     return (mesh::area_vector<dim>(mesh_, face.nodes)[axis] > 0) == high;
@@ -204,9 +203,9 @@ class Sample {
     for (const Side& side : sides) passed[group_of(faces[side.face].nodes[0])] = true;
     const auto ids = mesh_.nodes.ids();
     return std::any_of(ids.begin(), ids.end(), [&](NodeId node) {
-      double inside = rounding_;
-      for (int axis = 0; axis < dim; ++axis) inside = std::min({inside, above_low(node, axis), below_high(node, axis)});
-      return inside < -rounding_ && passed[group_of(node)];
+      double least = depth(node, 0);
+      for (int axis = 1; axis < dim; ++axis) least = std::min(least, depth(node, axis));
+      return least < -rounding_ && passed[group_of(node)];
     });
   }
 

@@ -10,6 +10,18 @@
 
 namespace scree::thermal {
 
+namespace {
+
+void refuse_too_many(const std::vector<RowChunk>& chunks) {
+  std::size_t entries = 0;
+  for (const RowChunk& chunk : chunks) entries += chunk.columns.size();
+  if (entries <= std::numeric_limits<int>::max()) return;
+  throw RunError(fmt::format("a matrix of the nodes has {} entries, more than the {} that can be counted; take coarser meshes",
+                             entries, std::numeric_limits<int>::max()));
+}
+
+}  // namespace
+
 void RowChunk::reserve(std::size_t rows, std::size_t entries) {
   columns.reserve(entries);
   values.reserve(entries);
@@ -26,18 +38,6 @@ void RowSum::append_to(RowChunk& chunk, double factor) {
   chunk.ends.push_back(static_cast<int>(chunk.columns.size()));
   row_.clear();
 }
-
-namespace {
-
-void refuse_too_many(const std::vector<RowChunk>& chunks) {
-  std::size_t entries = 0;
-  for (const RowChunk& chunk : chunks) entries += chunk.columns.size();
-  if (entries <= std::numeric_limits<int>::max()) return;
-  throw RunError(fmt::format("a matrix of the nodes has {} entries, more than the {} that can be counted; take coarser meshes",
-                             entries, std::numeric_limits<int>::max()));
-}
-
-}  // namespace
 
 SparseMatrix joined(std::vector<RowChunk> chunks, int size, std::span<const int> order) {
   refuse_too_many(chunks);

@@ -100,7 +100,7 @@ double expected_elements(const ClosedSurface& shell, double mesh_size) {
     area += (shell.points[b] - shell.points[a]).cross(shell.points[c] - shell.points[a]).norm() / 2;
     for (const std::size_t node : {a, b, c}) box.extend(shell.points[node]);
   }
-  return std::max(area / (0.43 * mesh_size * mesh_size), box.volume() / (0.12 * std::pow(mesh_size, 3)));
+  return std::max(triangles_in(area, mesh_size), tetrahedra_in(box.volume(), mesh_size));
 }
 
 SimplexMesh<3> fill(const BodySpec& body, const ClosedSurface& shell) {

@@ -21,6 +21,15 @@ inline InputError file_error(const BodySpec& body, const std::string& rule, cons
   return body_error(body, "mesh.file", std::get<MeshFile>(body.shape).path.string(), rule, suggestion);
 }
 
+// About how many triangles (tetrahedra) of this size cover an area [m2] (fill a volume [m3]): a regular triangle has sqrt(3)/4
+// of its edge squared, a tetrahedron in a packing about 0.12 of it cubed.
+inline double triangles_in(double area, double size) {
+  return area / (0.43 * size * size);
+}
+inline double tetrahedra_in(double volume, double size) {
+  return volume / (0.12 * size * size * size);
+}
+
 // Refuses a mesh_size that would fill the memory; `elements` is what it is expected to make.
 inline void expect_reasonable(const BodySpec& body, double elements) {
   constexpr double most = 2e7;

@@ -132,13 +132,11 @@ double outside(const Cylinder& cylinder) {
   return std::numbers::pi * cylinder.diameter * (cylinder.height + cylinder.diameter / 2);
 }
 
-// A regular triangle has sqrt(3)/4 of its edge squared, a tetrahedron in a packing about 0.12 of it cubed. What is thin has one
-// for every two triangles, in 2-D edges, of its outside at least.
+// What is thin has one for every two triangles, in 2-D edges, of its outside at least.
 template <int dim, class ShapeType>
 double expected_elements(const ShapeType& shape, double size) {
-  const double within = volume<dim>(shape) / ((dim == 2 ? 0.43 : 0.12) * std::pow(size, dim));
-  const double outside_it = outside<dim>(shape) / ((dim == 2 ? 1 : 0.43) * std::pow(size, dim - 1));
-  return std::max(within, outside_it / 2);
+  if constexpr (dim == 2) return std::max(triangles_in(volume<2>(shape), size), outside<2>(shape) / size / 2);
+  return std::max(tetrahedra_in(volume<3>(shape), size), triangles_in(outside<3>(shape), size) / 2);
 }
 
 template <int dim>

@@ -98,8 +98,9 @@ class Study {
   [[nodiscard]] Measured make(const Rung& rung, std::size_t number) const {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
-    if (fs::exists(files.summary())) {  // of an earlier call: a run that is refused leaves them, and without its summary the
-      fs::remove(files.scene());        // scene counts as somebody else's
+    // Of an earlier call: a run that is refused leaves them. A scene without its summary would count as somebody else's.
+    if (fs::exists(files.summary())) {
+      fs::remove(files.scene());
       fs::remove(files.summary());
     }
     const RunFiles first{run_directory(0)};

@@ -36,14 +36,18 @@ std::vector<double> column(const std::vector<Row>& rows, std::size_t number) {
   return values;
 }
 
+std::optional<std::size_t> place_of(const Row& head, const std::string& name) {
+  const auto found = std::find(head.begin(), head.end(), name);
+  return found == head.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - head.begin()));
+}
+
 // A figure of a run that is not complete is no measurement.
 std::vector<double> measured(const std::vector<Row>& rows, std::size_t number) {
-  const auto status = std::find(rows.front().begin(), rows.front().end(), "status");
   std::vector<double> values = column(rows, number);
-  if (status == rows.front().end()) return values;
-  const auto at = static_cast<std::size_t>(status - rows.front().begin());
+  const auto status = place_of(rows.front(), "status");
+  if (!status) return values;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (at < rows[i + 1].size() && rows[i + 1][at] != "complete") values[i] = std::nan("");
+    if (*status < rows[i + 1].size() && rows[i + 1][*status] != "complete") values[i] = std::nan("");
   }
   return values;
 }
@@ -92,9 +96,8 @@ struct Axes {
 
 // Nothing if the first key that varies, whose column is the one after the point's, takes words.
 std::optional<Axes> find_axes(const std::vector<Row>& rows) {
-  const auto point = std::find(rows.front().begin(), rows.front().end(), "point");
-  if (point != rows.front().end()) {
-    const auto first = column(rows, static_cast<std::size_t>(point - rows.front().begin()) + 1);
+  if (const auto point = place_of(rows.front(), "point")) {
+    const auto first = column(rows, *point + 1);
     if (std::none_of(first.begin(), first.end(), [](double value) { return std::isfinite(value); })) return std::nullopt;
   }
   std::optional<Axes> axes;

@@ -149,16 +149,14 @@ double weight(const Scene& scene, const mesh::BlockMesh<3>& mesh, BlockId block)
 }
 
 // Net force of the last step over the weight, of every free block that is still in the scene.
-Json balance_json(const Scene& scene, const packing::Packing<3>& packing) {
-  const packing::SettleReport& report = *packing.settled;
+Json balance_json(const Scene& scene, const packing::Packing<3>& packing, const std::vector<bool>& counted) {
   double sum = 0, count = 0, largest = 0, balanced = 0;
   BlockId worst;
   for (const BlockId block : packing.mesh.blocks.ids()) {
-    const bool lost = std::binary_search(report.lost_blocks.begin(), report.lost_blocks.end(), block);
-    if (lost || !free_block(packing.mesh, block)) continue;
+    if (!counted[block.index()]) continue;
     const double bearing = weight(scene, packing.mesh, block);
     if (bearing <= 0) return nullptr;
-    const double share = report.net_force[block] / bearing;
+    const double share = packing.settled->net_force[block] / bearing;
     sum += share;
     ++count;
     if (share < 0.01) ++balanced;
@@ -200,7 +198,7 @@ Json certificate(const Scene& scene, const packing::Packing<3>& packing) {
             {"porosity", porosity_json(measured.columns)},
             {"coordination", coordination_json(measured)},
             {"contacts", contacts_json(measured)},
-            {"force_balance", balance_json(scene, packing)}};
+            {"force_balance", balance_json(scene, packing, measured.counted)}};
   add_distances(json, measured.pairs);
   json["height"] = packing.settled->top;
   json["angle_of_repose_degrees"] = repose ? Json(repose->angle * 180 / std::numbers::pi) : Json(nullptr);

@@ -26,7 +26,7 @@ class Reader {
   Study read(const Checked& root) {
     Study study;
     study.file = file_;
-    study.scene = in_folder(root.at("scene").text);
+    study.scene = (folder() / root.at("scene").text).lexically_normal();
     std::error_code ignored;
     if (root.at("scene").sound && !fs::is_regular_file(study.scene, ignored)) {
       refuse(root.at("scene"), "must be a scene file that exists");
@@ -49,13 +49,11 @@ class Reader {
     problems_.push_back(value.problem(value.text.empty() ? "empty" : value.text, rule, suggestion));
   }
 
-  [[nodiscard]] fs::path in_folder(const std::string& path) const {
-    return (fs::absolute(file_).parent_path() / path).lexically_normal();
-  }
+  [[nodiscard]] fs::path folder() const { return fs::absolute(file_).parent_path(); }
 
   // What the scene is told: a file that a value names is relative to this one.
   [[nodiscard]] std::string told(const KeyNode& node, const std::string& value) const {
-    return with_files_in(fs::absolute(file_).parent_path(), node, value);
+    return with_files_in(folder(), node, value);
   }
 
   // A scene's key that varies; refuses a path that is none.

@@ -62,8 +62,7 @@ std::optional<ScenePath> scene_path(const std::string& path) {
     found.parts.push_back(number.value_or(part));
   }
   found.node = node;
-  found.key = node->key;
-  return found.key == nullptr ? std::nullopt : std::optional(found);
+  return node->key == nullptr ? std::nullopt : std::optional(found);
 }
 
 std::string suggest_path(const std::string& path) {

@@ -11,8 +11,7 @@ namespace scree::study {
 
 // `heat.boundaries[0].temperature` or `heat.boundaries.0.temperature`, which are the same.
 struct ScenePath {
-  const Key* key = nullptr;        // its row; what it takes
-  const KeyNode* node = nullptr;   // with those below it
+  const KeyNode* node = nullptr;   // it, with its row, and those below it
   std::vector<std::string> parts;  // heat, boundaries, 0, temperature
 
   // The same key, or one below this.
