@@ -1,7 +1,6 @@
 #include "engine/mesh/closed_surface.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
 
