@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "engine/base/written_later.h"
@@ -15,18 +16,33 @@ namespace scree::contact {
 // faces in a quadrature point of their overlap.
 enum class Kind : std::uint8_t { point_face, edge_edge, overlap };
 
+// In 2-D, where a face has two corners always.
+struct NoFourth {
+  static constexpr bool valid() { return false; }
+};
+
 // A point of a block as a weighted mean of nodes on its surface; weights sum to 1. An edge uses two of the three
 // entries in 3-D and gives the third weight 0.
 template <int dim>
 struct Stencil {
-  std::array<NodeId, dim> nodes;
+  std::array<NodeId, dim> nodes;  // of the face that was found
+  // The corner that a cell's quadrilateral has besides (both_diagonals.h); not valid elsewhere.
+  [[no_unique_address]] std::conditional_t<dim == 3, NodeId, NoFourth> fourth{};
   std::array<double, dim> weights{};
 };
+
+// Of the fourth corner: what the others lack of 1.
+inline double fourth_weight(const Stencil<3>& stencil) {
+  return 1 - (stencil.weights[0] + stencil.weights[1] + stencil.weights[2]);
+}
 
 template <int dim>
 Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Stencil<dim>& stencil) {
   Point<dim> sum = stencil.weights[0] * mesh.nodes[stencil.nodes[0]];
   for (int i = 1; i < dim; ++i) sum += stencil.weights[i] * mesh.nodes[stencil.nodes[i]];
+  if constexpr (dim == 3) {
+    if (stencil.fourth.valid()) sum += fourth_weight(stencil) * mesh.nodes[stencil.fourth];
+  }
   return sum;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "contact/both_diagonals.h"
 #include "contact/near_faces.h"
 #include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
@@ -26,7 +27,7 @@ Contact<dim> owned_by(const Surface<dim>& surface, FaceId owner, FaceId target, 
   contact.target = surface.faces[target].block;
   contact.target_element = surface.faces[target].element;
   contact.length = surface.lengths[owner];
-  contact.on_owner = {face.nodes, weights};
+  contact.on_owner = {face.nodes, {}, weights};
   return contact;
 }
 
@@ -36,7 +37,7 @@ Contact<dim> point_contact(const Surface<dim>& surface, const ContactOptions& op
   const auto& [owner, corner, target] = pair;
   Contact<dim> contact = owned_by<dim>(surface, owner, target, semi_spring_weights<dim>(corner, options.indentation));
   contact.kind = Kind::point_face;
-  contact.on_target = {surface.faces[target].nodes, touch.on_target};
+  contact.on_target = {surface.faces[target].nodes, {}, touch.on_target};
   contact.area = semi_spring_area(surface, owner);
   contact.gap = touch.gap;
   return contact;
@@ -175,6 +176,7 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
       set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
     }
   }
+  if constexpr (dim == 3) see_both_diagonals(mesh, set.contacts);
   return set;
 }
 

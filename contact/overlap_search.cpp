@@ -4,6 +4,9 @@
 #include <array>
 #include <bit>
 
+#include <boost/container/static_vector.hpp>
+
+#include "contact/both_diagonals.h"
 #include "contact/near_faces.h"
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
@@ -11,6 +14,7 @@
 #include "engine/base/collected.h"
 #include "engine/base/grouped.h"
 #include "engine/base/parts.h"
+#include "engine/mesh/cells.h"
 
 namespace scree::contact {
 
@@ -105,8 +109,8 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   contact.kind = Kind::overlap;
   contact.owner = surface.faces[first].block;
   contact.target = surface.faces[second].block;
-  contact.on_owner = {surface.faces[first].nodes, at.on_first};
-  contact.on_target = {surface.faces[second].nodes, at.on_second};
+  contact.on_owner = {surface.faces[first].nodes, {}, at.on_first};
+  contact.on_target = {surface.faces[second].nodes, {}, at.on_second};
   contact.owner_element = surface.faces[first].element;
   contact.target_element = surface.faces[second].element;
   contact.area = at.area;
@@ -115,37 +119,120 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   return contact;
 }
 
+// The points of the overlap of two faces.
+template <int dim>
+class WholeFaces {
+ public:
+  WholeFaces(const Surface<dim>& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
+
+  void points(FaceId first, FaceId second, std::vector<OverlapPoint<dim>>& points) const {
+    points_of_parts({first, corners_of(surface_, first)}, {second, corners_of(surface_, second)}, points);
+  }
+
+ protected:
+  struct Part {
+    FaceId face;
+    Corners<dim> corners;
+  };
+
+  void points_of_parts(const Part& first, const Part& second, std::vector<OverlapPoint<dim>>& points) const {
+    points.clear();
+    const auto pair =
+        opposed_faces<dim>(first.corners, surface_.normals[first.face], second.corners, surface_.normals[second.face]);
+    if (!pair) return;
+    overlap_points(*pair, tolerance_ * std::min(surface_.lengths[first.face], surface_.lengths[second.face]), points);
+  }
+
+  const Surface<dim>& surface_;
+  double tolerance_;
+};
+
+// The same where the triangles of cells' quadrilaterals are cut in two (both_diagonals.h), so that what is not linear in them
+// is integrated exactly, too.
+class HalvedFaces : public WholeFaces<3> {
+ public:
+  HalvedFaces(const Surface<3>& surface, double tolerance)
+      : WholeFaces(surface, tolerance), cells_(mesh::element_cells(surface.mesh)) {}
+
+  void points(FaceId first, FaceId second, std::vector<OverlapPoint<3>>& points) const {
+    points.clear();
+    std::vector<OverlapPoint<3>> some;
+    const auto of_second = parts(second);
+    for (const TrianglePart& a : parts(first)) {
+      for (const TrianglePart& b : of_second) {
+        points_of_parts(part(first, a), part(second, b), some);
+        for (const OverlapPoint<3>& at : some)
+          points.push_back({in_whole(a, at.on_first), in_whole(b, at.on_second), at.area, at.gap});
+      }
+    }
+  }
+
+ private:
+  using Parts = boost::container::static_vector<TrianglePart, 2>;
+
+  [[nodiscard]] Parts parts(FaceId face) const {
+    const CellId cell = cells_[surface_.faces[face].element];
+    if (cell.valid()) {
+      if (const auto both = halves(surface_.mesh, surface_.mesh.cells[cell], surface_.faces[face].nodes)) {
+        return {both->begin(), both->end()};
+      }
+    }
+    return {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+  }
+
+  [[nodiscard]] Part part(FaceId face, const TrianglePart& part) const {
+    const Corners<3> whole = corners_of(surface_, face);
+    Part found{face, {}};
+    for (std::size_t i = 0; i < 3; ++i) found.corners[i] = weighted_point<3>(whole, part[i]);
+    return found;
+  }
+
+  static std::array<double, 3> in_whole(const TrianglePart& part, const std::array<double, 3>& weights) {
+    std::array<double, 3> of_whole{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t corner = 0; corner < 3; ++corner) of_whole[corner] += weights[i] * part[i][corner];
+    }
+    return of_whole;
+  }
+
+  Table<ElementId, CellId> cells_;
+};
+
 // What `make` gives for every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of
 // faces, first < second: make(first, second, points, into) appends to `into`. On all threads.
-template <class Items, int dim, class Wanted, class Make>
-Items of_overlaps(const Surface<dim>& surface, double tolerance, const Wanted& wanted, const Make& make) {
+template <class Items, int dim, class Faces, class Wanted, class Make>
+Items of_overlaps(const Surface<dim>& surface, double tolerance, const Faces& overlaps, const Wanted& wanted,
+                  const Make& make) {
   const OrderedPairs pairs = near_pairs(surface, tolerance, wanted);
   return collected<Items>(surface.faces.size(), [&](Chunk chunk, auto& items) {
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-      const FaceId first{f};
       for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
-        const FaceId second = pairs.values[i];
-        const auto pair = opposed_faces<dim>(corners_of(surface, first), surface.normals[first], corners_of(surface, second),
-                                             surface.normals[second]);
-        if (!pair) continue;
-        overlap_points(*pair, tolerance * std::min(surface.lengths[first], surface.lengths[second]), points);
-        if (!points.empty()) make(first, second, points, items);
+        overlaps.points(FaceId{f}, pairs.values[i], points);
+        if (!points.empty()) make(FaceId{f}, pairs.values[i], points, items);
       }
     }
   });
+}
+
+template <int dim, class Faces>
+Contacts<dim> contacts_of(const Surface<dim>& surface, const Faces& overlaps, const ContactOptions& options) {
+  const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
+  return of_overlaps<Contacts<dim>>(
+      surface, options.tolerance, overlaps, wanted,
+      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
+        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
+      });
 }
 
 }  // namespace
 
 template <int dim>
 Contacts<dim> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options) {
-  const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
-  return of_overlaps<Contacts<dim>>(
-      surface, options.tolerance, wanted,
-      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
-        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
-      });
+  if constexpr (dim == 3) {
+    if (!surface.mesh.cells.empty()) return contacts_of(surface, HalvedFaces(surface, options.tolerance), options);
+  }
+  return contacts_of(surface, WholeFaces<dim>(surface, options.tolerance), options);
 }
 
 template <int dim>
@@ -167,7 +254,8 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
   const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
   using Share = std::pair<std::pair<BodyId, BodyId>, double>;
   const auto shares = of_overlaps<std::vector<Share>>(
-      surface, options.tolerance, [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; },
+      surface, options.tolerance, WholeFaces<dim>(surface, options.tolerance),
+      [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; },
       [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Share>& into) {
         for (const auto& point : points) {
           into.push_back({bodies_of(surface.faces[first].block, surface.faces[second].block), point.area});

@@ -199,11 +199,7 @@ class Chooser {
     for (const Entry& entry : entries) {
       const contact::Contact<dim>& contact = contacts_[entry.item];
       const contact::Stencil<dim>& stencil = entry.owner ? contact.on_owner : contact.on_target;
-      Point<dim> point = -centroid;
-      for (int i = 0; i < dim; ++i) {
-        if (stencil.weights[i] != 0) point += stencil.weights[i] * mesh_.nodes[stencil.nodes[i]];
-      }
-      patch.moments.add(point, joints_.conductances[entry.item]);
+      patch.moments.add(point_of(mesh_, stencil) - centroid, joints_.conductances[entry.item]);
       patch.conductance += joints_.conductances[entry.item];
       if (contact.kind == contact::Kind::overlap) patch.area += contact.area;
       if (contact.kind == contact::Kind::point_face) patch.area += 0.5 * contact.area;

@@ -20,20 +20,31 @@ namespace scree::thermal {
 // The weights w of a contact: T1 - T2 = sum of weights times nodal temperatures. The weights sum to zero.
 template <int dim>
 struct TemperatureDifference {
-  std::array<NodeId, 2 * dim> nodes;
-  std::array<double, 2 * dim> weights{};
+  static constexpr int most = dim == 3 ? 4 : 2;
+  int side = dim;  // entries of the owner's side, and as many of the target's behind them
+  std::array<NodeId, 2 * most> nodes;
+  std::array<double, 2 * most> weights{};
+
+  void add(int first, double sign, const contact::Stencil<dim>& stencil) {
+    for (int i = 0; i < dim; ++i) {
+      nodes[first + i] = stencil.nodes[i];
+      weights[first + i] = sign * stencil.weights[i];
+    }
+    if constexpr (dim == 3) {
+      if (!stencil.fourth.valid()) return;
+      nodes[first + dim] = stencil.fourth;
+      weights[first + dim] = sign * contact::fourth_weight(stencil);
+    }
+  }
 };
 
 template <int dim>
 TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& contact, JointForm form) {
   const contact::Stencil<dim> owner = form == JointForm::consistent ? contact.on_owner : contact::literal_owner(contact);
   TemperatureDifference<dim> difference;
-  for (int i = 0; i < dim; ++i) {
-    difference.nodes[i] = owner.nodes[i];
-    difference.weights[i] = owner.weights[i];
-    difference.nodes[dim + i] = contact.on_target.nodes[i];
-    difference.weights[dim + i] = -contact.on_target.weights[i];
-  }
+  if (owner.fourth.valid() || contact.on_target.fourth.valid()) difference.side = difference.most;
+  difference.add(0, 1, owner);
+  difference.add(difference.side, -1, contact.on_target);
   return difference;
 }
 
@@ -43,6 +54,9 @@ template <int dim>
 double temperature_drop(const contact::Contact<dim>& contact, JointForm form, const Eigen::VectorXd& temperature) {
   const auto add = [&](const contact::Stencil<dim>& side, double sign, double sum) {
     for (int i = 0; i < dim; ++i) sum += sign * side.weights[i] * temperature[side.nodes[i].value()];
+    if constexpr (dim == 3) {
+      if (side.fourth.valid()) sum += sign * contact::fourth_weight(side) * temperature[side.fourth.value()];
+    }
     return sum;
   };
   const bool as_found = form == JointForm::consistent;

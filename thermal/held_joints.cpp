@@ -28,7 +28,7 @@ const Hold* held_by(NodeId node, const HeatModel& model, const std::vector<int>&
 // Whether all nodes that have to do with it are held.
 template <int dim>
 bool is_held(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds) {
-  for (int i = 0; i < term.corners; ++i) {
+  for (int i = 0; i < term.size; ++i) {
     if (term.jump[i] != 0 && held_by(term.nodes[i], model, holds) == nullptr) return false;
   }
   return true;
@@ -36,7 +36,7 @@ bool is_held(const PerfectTerm<dim>& term, const HeatModel& model, const std::ve
 
 template <int dim>
 bool varies_in_time(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds) {
-  for (int i = 0; i < term.corners; ++i) {
+  for (int i = 0; i < term.size; ++i) {
     if (term.jump[i] != 0 && held_by(term.nodes[i], model, holds)->temperature.varies_in_time()) return true;
   }
   return false;
@@ -45,13 +45,13 @@ bool varies_in_time(const PerfectTerm<dim>& term, const HeatModel& model, const 
 template <int dim>
 HeldJump held_jump(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds, double time) {
   HeldJump jump;
-  for (int i = 0; i < term.corners; ++i) {
+  for (int i = 0; i < term.size; ++i) {
     if (term.jump[i] == 0) continue;
     const Hold& by = *held_by(term.nodes[i], model, holds);
     const double temperature = by.temperature(model.places.col(term.nodes[i].value()), time);
     jump.difference += term.jump[i] * temperature;
     jump.size = std::max(jump.size, std::abs(temperature));
-    (i <= dim ? jump.first : jump.second) = &by;
+    (i < term.owners ? jump.first : jump.second) = &by;
   }
   return jump;
 }

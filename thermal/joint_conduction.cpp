@@ -15,9 +15,9 @@ namespace {
 // Where tied nodes let both sides have a row, its weight is the sum.
 template <int dim>
 void join_sides(TemperatureDifference<dim>& difference) {
-  for (int i = 0; i < dim; ++i) {
+  for (int i = 0; i < difference.side; ++i) {
     if (difference.weights[i] == 0) continue;
-    for (int other = dim; other < 2 * dim; ++other) {
+    for (int other = difference.side; other < 2 * difference.side; ++other) {
       if (difference.weights[other] == 0 || difference.nodes[other] != difference.nodes[i]) continue;
       difference.weights[i] += difference.weights[other];
       difference.weights[other] = 0;
@@ -29,9 +29,9 @@ void join_sides(TemperatureDifference<dim>& difference) {
 template <int dim>
 TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, const NodeMap& rows) {
   if (rows.is_identity()) return difference;
-  for (int side = 0; side < 2 * dim; side += dim) {
+  for (const int side : {0, difference.side}) {
     int first = -1;  // of the side's entries in use
-    for (int i = side; i < side + dim; ++i) {
+    for (int i = side; i < side + difference.side; ++i) {
       if (difference.weights[i] == 0) continue;
       difference.nodes[i] = rows[difference.nodes[i]];
       if (first < 0) {
@@ -50,12 +50,12 @@ TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, c
 template <int dim>
 struct RowTerm {
   int size = 0;
-  std::array<int, PerfectTerm<dim>::corners> rows{};
-  std::array<double, PerfectTerm<dim>::corners> jump{};
-  std::array<double, PerfectTerm<dim>::corners> flux{};
+  std::array<int, PerfectTerm<dim>::most> rows{};
+  std::array<double, PerfectTerm<dim>::most> jump{};
+  std::array<double, PerfectTerm<dim>::most> flux{};
 
   RowTerm(const PerfectTerm<dim>& term, const NodeMap& map) {
-    for (int i = 0; i < term.corners; ++i) {
+    for (int i = 0; i < term.size; ++i) {
       const int here = find(map[term.nodes[i]].value());
       rows[here] = map[term.nodes[i]].value();
       jump[here] += term.jump[i];
@@ -110,7 +110,7 @@ class JointRows {
   void visit_rows_of_contact(std::size_t contact, const Visit& visit) const {
     if (field_ == Field::phi || !(conduction_.conductances[contact] > 0) || is_perfect(contact)) return;
     const TemperatureDifference<dim> between = difference(contact);
-    for (int i = 0; i < 2 * dim; ++i) {
+    for (int i = 0; i < 2 * between.side; ++i) {
       if (between.weights[i] != 0) visit(between.nodes[i].value());  // a semi-edge leaves a third of its entries unused
     }
   }
@@ -128,7 +128,7 @@ class JointRows {
     const TemperatureDifference<dim> between = difference(contact);
     int here = 0;
     while (between.nodes[here].value() != row || between.weights[here] == 0) ++here;
-    for (int i = 0; i < 2 * dim; ++i) {
+    for (int i = 0; i < 2 * between.side; ++i) {
       const double product = between.weights[here] * between.weights[i];
       if (product != 0) sum.add(between.nodes[i].value(), conduction_.conductances[contact] * product);
     }
@@ -162,16 +162,16 @@ class JointRows {
 // As differences within each side: the fluxes of a side sum to zero only to rounding, and temperatures in kelvin are large.
 template <int dim>
 double perfect_flow(const PerfectTerm<dim>& term, const JointConduction<dim>& conduction, const Eigen::VectorXd& temperature) {
-  std::array<double, PerfectTerm<dim>::corners> field{};  // as if k were that at the reference temperature [K]
-  for (int i = 0; i < term.corners; ++i) {
+  std::array<double, PerfectTerm<dim>::most> field{};  // as if k were that at the reference temperature [K]
+  for (int i = 0; i < term.size; ++i) {
     const double at = temperature[term.nodes[i].value()];
     field[i] = term.of_phi ? *term.of_phi * conduction.conductivities[term.material.index()].integral(at) : at;
   }
   double drop = 0;
   double flux = 0;
-  for (int i = 0; i < term.corners; ++i) {
+  for (int i = 0; i < term.size; ++i) {
     drop += term.jump[i] * field[i];
-    flux += term.flux[i] * (field[i] - field[i <= dim ? 0 : dim + 1]);
+    flux += term.flux[i] * (field[i] - field[i < term.owners ? 0 : term.owners]);
   }
   return conduction.conductances[term.contact] * drop - flux;
 }

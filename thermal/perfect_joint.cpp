@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <boost/container/static_vector.hpp>
 
+#include "contact/both_diagonals.h"
+#include "engine/base/check.h"
+#include "engine/mesh/cells.h"
 #include "thermal/block_conduction.h"
 #include "thermal/contact_conduction.h"
 #include "thermal/problems.h"
@@ -28,9 +32,13 @@ class PerfectJoints {
     std::vector<PerfectTerm<dim>> terms;
     if (perfect_.empty()) return terms;
     bounds_ = Table<ElementId, double>(mesh_.elements.size(), 0);
+    if (!mesh_.cells.empty()) {
+      cells_ = mesh::element_cells(mesh_);
+      cell_bounds_ = Table<CellId, CellBounds>(mesh_.cells.size(), CellBounds{});
+    }
     for (const std::size_t c : perfect_) {
-      add_to_bound(c, contacts_[c].owner, contacts_[c].owner_element);
-      add_to_bound(c, contacts_[c].target, contacts_[c].target_element);
+      add_to_bounds(c, contacts_[c].owner, owner_side(c));
+      add_to_bounds(c, contacts_[c].target, target_side(c));
     }
     terms.reserve(perfect_.size());
     for (const std::size_t c : perfect_) terms.push_back(term(c));
@@ -38,11 +46,58 @@ class PerfectJoints {
   }
 
  private:
-  // c of the element, from the areas that have to do with it.
-  void add_to_bound(std::size_t c, BlockId block, ElementId element) {
+  using CellBounds = std::array<double, 10>;  // of the simplices of both splits
+
+  // A simplex behind a face, as the block's conduction has it.
+  struct Behind {
+    mesh::Simplex<dim> nodes;
+    double* bound;        // c
+    double weight = 1.0;  // in the block's conduction
+  };
+  using AllBehind = boost::container::static_vector<Behind, 2>;
+
+  [[nodiscard]] AllBehind owner_side(std::size_t c) { return behind(contacts_[c].owner_element, contacts_[c].on_owner); }
+  [[nodiscard]] AllBehind target_side(std::size_t c) { return behind(contacts_[c].target_element, contacts_[c].on_target); }
+
+  [[nodiscard]] AllBehind behind(ElementId element, const contact::Stencil<dim>& point) {
+    if (cells_.empty() || !cells_[element].valid()) return {{mesh_.elements[element], &bounds_[element]}};
+    return behind_cell_face(cells_[element], point);
+  }
+
+  // One of each split: on a quadrilateral the one split has the triangle that was found, the other that of the other diagonal.
+  [[nodiscard]] AllBehind behind_cell_face(CellId cell, const contact::Stencil<dim>& point) {
+    std::array<NodeId, dim> other = point.nodes;
+    if constexpr (dim == 3) {
+      if (point.fourth.valid()) other = contact::other_triangle(mesh_, mesh_.cells[cell], point);
+    }
+    const auto splits = mesh::both_splits(mesh_, cell);
+    AllBehind found;
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      if (!holds(splits[i], point.nodes) && !holds(splits[i], other)) continue;
+      found.push_back({splits[i], &cell_bounds_[cell][i], 0.5});
+    }
+    SCREE_EXPECT(found.size() == 2);
+    return found;
+  }
+
+  static bool holds(const mesh::Simplex<dim>& simplex, const std::array<NodeId, dim>& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](NodeId node) { return std::find(simplex.begin(), simplex.end(), node) != simplex.end(); });
+  }
+
+  // c of the simplices, from the areas that have to do with them.
+  void add_to_bounds(std::size_t c, BlockId block, const AllBehind& side) {
     const Point<dim> normal = contact_normal(mesh_, contacts_[c]);
     const double conductivity = normal.dot(conducted<dim>(mesh_, materials_, block, normal));
-    bounds_[element] += contacts_[c].area * conductivity / mesh::element_volume(mesh_, element);
+    for (const Behind& simplex : side) {
+      *simplex.bound += contacts_[c].area * conductivity / mesh::simplex_volume(mesh_, simplex.nodes);
+    }
+  }
+
+  static double largest_bound(const AllBehind& side) {
+    double largest = 0;
+    for (const Behind& simplex : side) largest = std::max(largest, *simplex.bound);
+    return largest;
   }
 
   struct Sides {
@@ -51,8 +106,7 @@ class PerfectJoints {
     bool one_varying_material = false;
   };
 
-  [[nodiscard]] Sides weigh(const contact::Contact<dim>& contact) const {
-    const double c1 = bounds_[contact.owner_element], c2 = bounds_[contact.target_element];
+  [[nodiscard]] Sides weigh(const contact::Contact<dim>& contact, double c1, double c2) const {
     const bool owner_varies = materials_[material(contact.owner)].conductivity->varies();
     const bool target_varies = materials_[material(contact.target)].conductivity->varies();
     if (owner_varies && target_varies && material(contact.owner) != material(contact.target)) refuse(contact);
@@ -72,46 +126,59 @@ class PerfectJoints {
                              "Give the joint a large conductance instead"));
   }
 
-  [[nodiscard]] PerfectTerm<dim> term(std::size_t c) const {
+  [[nodiscard]] PerfectTerm<dim> term(std::size_t c) {
     const contact::Contact<dim>& contact = contacts_[c];
     PerfectTerm<dim> term;
     term.contact = c;
     term.material = material(contact.owner);
-    const Sides sides = weigh(contact);
+    const AllBehind owner = owner_side(c), target = target_side(c);
+    const Sides sides = weigh(contact, largest_bound(owner), largest_bound(target));
     term.penalty = sides.penalty;
     if (sides.one_varying_material) term.of_phi = 1 / materials_[term.material].conductivity->value(reference_temperature);
     const Point<dim> normal = contact_normal(mesh_, contact);
-    set_side(term, 0, contact.owner_element,
-             contact.area * sides.of_owner * conducted<dim>(mesh_, materials_, contact.owner, normal));
-    set_side(term, dim + 1, contact.target_element,
-             contact.area * sides.of_target * conducted<dim>(mesh_, materials_, contact.target, normal));
-    set_jump(term, 0, contact.on_owner, 1);
-    set_jump(term, dim + 1, contact.on_target, -1);
+    add_side(term, owner, contact.area * sides.of_owner * conducted<dim>(mesh_, materials_, contact.owner, normal),
+             contact.on_owner, 1);
+    term.owners = term.size;
+    add_side(term, target, contact.area * sides.of_target * conducted<dim>(mesh_, materials_, contact.target, normal),
+             contact.on_target, -1);
     return term;
   }
 
-  // The element's corners from `first` on, with `weight` . grad T as their flux.
-  void set_side(PerfectTerm<dim>& term, int first, ElementId element, const Point<dim>& weight) const {
-    const Corners<dim> areas = opposite_areas<dim>(corner_points<dim>(mesh_, mesh_.elements[element]));
-    const double volume = mesh::element_volume(mesh_, element);
-    for (int a = 0; a <= dim; ++a) {
-      term.nodes[first + a] = mesh_.elements[element][a];
-      term.flux[first + a] = -weight.dot(areas.col(a)) / (dim * volume);
+  // The corners of the simplices, with `weight` . grad T as their flux, and the point's weights.
+  void add_side(PerfectTerm<dim>& term, const AllBehind& side, const Point<dim>& weight, const contact::Stencil<dim>& point,
+                double sign) const {
+    const int first = term.size;
+    for (const Behind& simplex : side) {
+      const Corners<dim> areas = opposite_areas<dim>(corner_points<dim>(mesh_, simplex.nodes));
+      const double volume = mesh::simplex_volume(mesh_, simplex.nodes);
+      for (int a = 0; a <= dim; ++a) {
+        term.flux[place_of(simplex.nodes[a], first, term)] -= simplex.weight * weight.dot(areas.col(a)) / (dim * volume);
+      }
+    }
+    for (int i = 0; i < dim; ++i) term.jump[place_of(point.nodes[i], first, term)] = sign * point.weights[i];
+    if constexpr (dim == 3) {
+      if (point.fourth.valid()) term.jump[place_of(point.fourth, first, term)] = sign * contact::fourth_weight(point);
     }
   }
 
-  static void set_jump(PerfectTerm<dim>& term, int first, const contact::Stencil<dim>& stencil, double sign) {
-    for (int i = 0; i < dim; ++i) {
-      const auto corner = std::find(term.nodes.begin() + first, term.nodes.begin() + first + dim + 1, stencil.nodes[i]);
-      term.jump[static_cast<std::size_t>(corner - term.nodes.begin())] = sign * stencil.weights[i];
+  // Where the node is from `first` on, at the end if it was not there.
+  static std::size_t place_of(NodeId node, int first, PerfectTerm<dim>& term) {
+    const auto end = term.nodes.begin() + term.size;
+    const auto found = std::find(term.nodes.begin() + first, end, node);
+    if (found == end) {
+      SCREE_EXPECT(term.size < term.most);
+      term.nodes[term.size++] = node;
     }
+    return static_cast<std::size_t>(found - term.nodes.begin());
   }
 
   const mesh::BlockMesh<dim>& mesh_;
   const Table<MaterialId, Material>& materials_;
   const contact::Contacts<dim>& contacts_;
   std::vector<std::size_t> perfect_;
-  Table<ElementId, double> bounds_;
+  Table<ElementId, double> bounds_;  // of the elements of blocks without cells
+  Table<ElementId, CellId> cells_;   // empty if there are no cells
+  Table<CellId, CellBounds> cell_bounds_;
 };
 
 }  // namespace

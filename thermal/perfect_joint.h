@@ -14,6 +14,10 @@
 // are those that need the least penalty (Annavarapu, Hautefeuille and Dolbow, Comput. Methods Appl. Mech. Eng. 225-228, 2012);
 // they stay good when the two sides differ a thousandfold.
 //
+// Where a block is made of cells, its conduction is that of two splits with half the weight each (engine/mesh/cells.h), and q
+// is the mean of the two simplices behind the face. The square of a mean is at most the mean of the squares, so the bounds add
+// up to the block's energy as they do above, with c the larger of the two.
+//
 // Where k depends on temperature, both sides of one material: all of this in Kirchhoff's Phi, the integral of k over T, in
 // which the flux is linear. One side constant: its flux alone, w = 1 and gamma = 2 c, as if the other conducted without end;
 // heat then flows as the constant side says, and a linear field in either passes. Two materials whose k depends on temperature
@@ -33,12 +37,14 @@ namespace scree::thermal {
 // sum of flux times temperatures [W], and K loses w q^T + q w^T.
 template <int dim>
 struct PerfectTerm {
-  static constexpr int corners = 2 * (dim + 1);
-  std::size_t contact = 0;             // in the set
-  double penalty = 0;                  // gamma [W/m2/K]
-  std::array<NodeId, corners> nodes;   // the owner's element's, then the target's
-  std::array<double, corners> jump{};  // w: T1 - T2
-  std::array<double, corners> flux{};  // [W/K]
+  static constexpr int most = dim == 3 ? 12 : 8;  // the two simplices behind a cell's face have two corners in common, or more
+  std::size_t contact = 0;                        // in the set
+  double penalty = 0;                             // gamma [W/m2/K]
+  int size = 0;                                   // how many nodes there are, each once
+  int owners = 0;                                 // how many of them are the owner's; they come first
+  std::array<NodeId, most> nodes;
+  std::array<double, most> jump{};  // w: T1 - T2
+  std::array<double, most> flux{};  // [W/K]
   // Where both sides are of one material whose k depends on temperature: 1/k at the reference temperature, times which all of
   // the term is about Phi instead of T [m K/W].
   std::optional<double> of_phi;

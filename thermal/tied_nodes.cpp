@@ -1,6 +1,6 @@
 #include "thermal/tied_nodes.h"
 
-#include <array>
+#include <utility>
 #include <vector>
 
 #include "engine/mesh/disjoint_sets.h"
@@ -12,19 +12,21 @@ namespace {
 
 constexpr double same_place = 1e-6;  // of the contact's characteristic length
 
-// Which of the target's corners lies on each of the owner's; nothing unless all do.
+// Pairs of corners that lie on each other.
+using Matching = boost::container::static_vector<std::pair<NodeId, NodeId>, 4>;
+
+// Which of the target's corners lies on each of the owner's; none unless all do.
 template <int dim>
-std::optional<std::array<NodeId, dim>> matching_corners(const mesh::BlockMesh<dim>& mesh,
-                                                        const contact::Contact<dim>& contact) {
-  std::array<NodeId, dim> matching;
-  for (int i = 0; i < dim; ++i) {
-    const Point<dim>& corner = mesh.nodes[contact.on_owner.nodes[i]];
-    const auto& others = contact.on_target.nodes;
+Matching matching_corners(const mesh::BlockMesh<dim>& mesh, const contact::Contact<dim>& contact) {
+  const auto corners = corners_of(contact.on_owner), others = corners_of(contact.on_target);
+  Matching matching;
+  if (corners.size() != others.size()) return matching;
+  for (const NodeId corner : corners) {
     const auto on_it = std::find_if(others.begin(), others.end(), [&](NodeId other) {
-      return (mesh.nodes[other] - corner).norm() <= same_place * contact.length;
+      return (mesh.nodes[other] - mesh.nodes[corner]).norm() <= same_place * contact.length;
     });
-    if (on_it == others.end()) return std::nullopt;
-    matching[i] = *on_it;
+    if (on_it == others.end()) return {};
+    matching.emplace_back(corner, *on_it);
   }
   return matching;
 }
@@ -62,15 +64,13 @@ std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh
   Ties ties(mesh.nodes.size(), model);
   bool any = false;
   for (const PerfectTerm<dim>& term : joints.perfect) {
-    const contact::Contact<dim>& contact = contacts.contacts[term.contact];
-    const auto matching = matching_corners(mesh, contact);
-    if (!matching) continue;
-    const auto& corners = contact.on_owner.nodes;
-    bool one = true;
-    for (int i = 0; i < dim; ++i) one = one && ties.may_be_one(corners[i], (*matching)[i]);
-    if (!one) continue;
-    any = true;
-    for (int i = 0; i < dim; ++i) ties.make_one(corners[i], (*matching)[i]);
+    const Matching matching = matching_corners(mesh, contacts.contacts[term.contact]);
+    if (!std::all_of(matching.begin(), matching.end(),
+                     [&](const auto& pair) { return ties.may_be_one(pair.first, pair.second); })) {
+      continue;
+    }
+    any = any || !matching.empty();
+    for (const auto& [corner, other] : matching) ties.make_one(corner, other);
   }
   if (!any) return std::nullopt;
   Table<NodeId, NodeId> first_of_set(mesh.nodes.size());

@@ -1,9 +1,12 @@
 // Perfect joints between faces that match, corner upon corner: the corners that lie on each other are one node, and K is that
-// of one mesh. Nothing is coupled there, and nothing stiffened; perfect_joint.h is for faces that do not match.
+// of one mesh. Nothing is coupled there, and nothing stiffened; perfect_joint.h is for faces that do not match. A quadrilateral
+// and the two triangles of tetrahedra do not, as heat that passes them evenly is shared out to their corners differently.
 #pragma once
 
 #include <algorithm>
 #include <optional>
+
+#include <boost/container/static_vector.hpp>
 
 #include "contact/contact_set.h"
 #include "thermal/heat_model.h"
@@ -18,14 +21,24 @@ template <int dim>
 std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts,
                                                 const JointConduction<dim>& joints, const HeatModel& model);
 
+// The corners of a contact's face, with the fourth of a quadrilateral.
+template <int dim>
+boost::container::static_vector<NodeId, 4> corners_of(const contact::Stencil<dim>& face) {
+  boost::container::static_vector<NodeId, 4> corners(face.nodes.begin(), face.nodes.end());
+  if constexpr (dim == 3) {
+    if (face.fourth.valid()) corners.push_back(face.fourth);
+  }
+  return corners;
+}
+
 // Whether the two faces of the contact have the same rows: it adds nothing to K.
 template <int dim>
 bool is_tied(const contact::Contact<dim>& contact, const NodeMap& rows) {
   if (rows.is_identity()) return false;
-  const auto& others = contact.on_target.nodes;
-  return std::all_of(contact.on_owner.nodes.begin(), contact.on_owner.nodes.end(), [&](NodeId node) {
-    return std::any_of(others.begin(), others.end(), [&](NodeId other) { return rows[other] == rows[node]; });
-  });
+  const auto corners = corners_of(contact.on_owner), others = corners_of(contact.on_target);
+  return corners.size() == others.size() && std::all_of(corners.begin(), corners.end(), [&](NodeId node) {
+           return std::any_of(others.begin(), others.end(), [&](NodeId other) { return rows[other] == rows[node]; });
+         });
 }
 
 }  // namespace scree::thermal

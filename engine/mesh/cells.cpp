@@ -1,5 +1,7 @@
 #include "engine/mesh/cells.h"
 
+#include <algorithm>
+
 #include "engine/mesh/outer_cell_faces.h"
 
 namespace scree::mesh {
@@ -34,6 +36,32 @@ SimplexList<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
 }
 
 template <int dim>
+Table<ElementId, CellId> element_cells(const BlockMesh<dim>& mesh) {
+  Table<ElementId, CellId> cells(mesh.elements.size());
+  for (const Block& block : mesh.blocks) {
+    auto element = block.elements.begin();
+    for (const CellId cell : block.cells) {
+      for (std::size_t i = 0; i < split_count(mesh.cells[cell].kind); ++i, ++element) cells[*element] = cell;
+    }
+  }
+  return cells;
+}
+
+std::optional<std::array<NodeId, 4>> quadrilateral_of(const Cell& cell, const std::array<NodeId, 3>& corners) {
+  for (const CornerList face : cell_faces(cell.kind)) {
+    if (face.size() != 4) continue;
+    std::array<NodeId, 4> nodes;
+    std::transform(face.begin(), face.end(), nodes.begin(), [&](std::size_t corner) { return cell.nodes[corner]; });
+    const auto other = [&](NodeId node) { return std::find(corners.begin(), corners.end(), node) == corners.end(); };
+    if (std::count_if(nodes.begin(), nodes.end(), other) != 1) continue;
+    const auto fourth = std::find_if(nodes.begin(), nodes.end(), other);
+    std::rotate(nodes.begin(), fourth + 1, nodes.end());  // a whole turn where it is the last
+    return nodes;
+  }
+  return std::nullopt;
+}
+
+template <int dim>
 Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
   Table<FaceId, Face<dim>> of_elements;
   Table<FaceId, WeightedFace<dim>> of_cells;
@@ -53,6 +81,7 @@ Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
 
 #define SCREE_INSTANTIATE(dim)                                                        \
   template SimplexList<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \
+  template Table<ElementId, CellId> element_cells<dim>(const BlockMesh<dim>&);        \
   template Table<FaceId, WeightedFace<dim>> weighted_faces<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

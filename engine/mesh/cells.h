@@ -2,6 +2,8 @@
 // cell's overlapping splits with half the weight each.
 #pragma once
 
+#include <optional>
+
 #include "engine/mesh/block_mesh.h"
 
 namespace scree::mesh {
@@ -23,6 +25,14 @@ void for_each_simplex(const BlockMesh<dim>& mesh, const Block& block, const Visi
   if (block.cells.size() > 0) return;
   for (const ElementId e : block.elements) visit(mesh.elements[e], 1.0);
 }
+
+// The cell that each element is a part of; not valid for elements of blocks without cells.
+template <int dim>
+Table<ElementId, CellId> element_cells(const BlockMesh<dim>& mesh);
+
+// The face of the cell that these corners and one more make up, the corners in turn and that one last; nothing if they are a
+// face by themselves.
+std::optional<std::array<NodeId, 4>> quadrilateral_of(const Cell& cell, const std::array<NodeId, 3>& corners);
 
 // A part of a block's surface as heat passes it, with the weight of its area; of a cell's face the element is not valid.
 template <int dim>

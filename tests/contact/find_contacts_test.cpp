@@ -110,7 +110,7 @@ mesh::BlockMesh<3> crossed_edges(double gap) {
 }
 
 Point<3> centre_of(const mesh::BlockMesh<3>& mesh, const Stencil<3>& stencil) {
-  return value(mesh, Stencil<3>{stencil.nodes, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+  return value(mesh, Stencil<3>{stencil.nodes, {}, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
 }
 
 TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {

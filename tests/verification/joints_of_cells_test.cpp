@@ -1,0 +1,163 @@
+// Joints between blocks of quadrilaterals, wedges and hexahedra, whose faces are seen through both diagonals.
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "contact/find_contacts.h"
+#include "tests/mesh/cell_boxes.h"
+#include "tests/thermal/builders.h"
+#include "tests/verification/steady.h"
+
+namespace scree::thermal {
+namespace {
+
+using Kind = std::optional<mesh::CellKind>;
+
+const std::vector<Kind> solids{mesh::CellKind::hexahedron, mesh::CellKind::wedge, std::nullopt};
+
+std::string name_of(const Kind& kind) {
+  return kind ? mesh::kind_name(*kind) : "simplex";
+}
+
+// One unit box on the other.
+mesh::BlockMesh<3> two_boxes(const Kind& lower, double lower_size, const Kind& upper, double upper_size, double turn = 0) {
+  return mesh::test::cell_boxes<3>({{.centre = {0, 0, -0.5}, .mesh_size = lower_size, .kind = lower},
+                                    {.centre = {0, 0, 0.5}, .mesh_size = upper_size, .kind = upper, .turn = turn}});
+}
+
+template <int dim>
+HeatModel model_of(const mesh::BlockMesh<dim>& mesh, const JointOptions& joint) {
+  HeatOptions options = test::options_for(mesh, 300);
+  options.joint = joint;
+  return make_heat_model(mesh, test::rock_only(), contact::find_contacts(mesh, contact_search(joint, mesh.bodies, {})),
+                         options);
+}
+
+JointOptions joint_of(const JointLaw& law, contact::Model model) {
+  JointOptions joint;
+  joint.law = law;
+  joint.model = model;
+  return joint;
+}
+
+const JointOptions perfect = joint_of(PerfectJoint{}, contact::Model::overlap);
+
+// The lower side held at 400 K, the upper one at 300 K: the largest deviation from resistances in series.
+double error_in_series(const mesh::BlockMesh<3>& mesh, const JointOptions& joint, double conductance) {
+  test::Held held;
+  for (const NodeId node : mesh.nodes.ids()) {
+    const double z = mesh.nodes[node].z();
+    if (std::abs(z) > 1 - 1e-9) held[node] = z < 0 ? 400 : 300;
+  }
+  const HeatModel model = model_of(mesh, joint);
+  const Eigen::VectorXd temperature = test::steady(model, held);
+  const double flux = 100 / (2 / 4.0 + 1 / conductance);
+  double largest = 0;
+  for (const BlockId block : mesh.blocks.ids()) {
+    for (const NodeId node : mesh.blocks[block].nodes) {
+      const double z = mesh.nodes[node].z();
+      const double exact = block.index() == 0 ? 400 - flux * (z + 1) / 4 : 300 + flux * (1 - z) / 4;
+      largest = std::max(largest, std::abs(temperature[node.value()] - exact));
+    }
+  }
+  return largest;
+}
+
+TEST(JointsOfCells, ByOverlapsCarryTheFlowOfResistancesInSeriesEvenly) {
+  const JointOptions joint = joint_of(JointConductance{20}, contact::Model::overlap);
+  for (const Kind& lower : solids) {
+    for (const Kind& upper : solids) {
+      for (const double size : {1.0, 0.5, 0.34}) {
+        auto mesh = two_boxes(lower, 0.5, upper, size);
+        mesh::test::bend_sideways(mesh);
+        EXPECT_LT(error_in_series(mesh, joint, 20), 1e-9) << name_of(lower) << " " << name_of(upper) << " " << size;
+      }
+    }
+  }
+}
+
+// Each semi-spring is a twentieth of the way from its corner to the middle of a triangle, not of the face. A diagonal seen
+// alone left 12 K between corners.
+TEST(JointsOfCells, BySemiSpringsCarryItNearlySo) {
+  const JointOptions joint = joint_of(JointConductance{20}, contact::Model::semi_spring);
+  for (const double size : {1.0, 0.5, 0.25}) {
+    const auto mesh = two_boxes(mesh::CellKind::hexahedron, size, mesh::CellKind::hexahedron, size);
+    EXPECT_LT(error_in_series(mesh, joint, 20), 0.3) << size;
+  }
+}
+
+TEST(JointsOfCells, PassALinearFieldIfTheyArePerfect) {
+  const auto linear = [](const Point<3>& point) { return 300 + 7 * point.x() - 5 * point.y() + 3 * point.z(); };
+  for (const Kind& lower : solids) {
+    for (const Kind& upper : solids) {
+      auto mesh = two_boxes(lower, 0.5, upper, 0.34);
+      test::Held held;
+      for (const NodeId node : mesh.nodes.ids()) {
+        const Point<3>& at = mesh.nodes[node];
+        if (std::abs(at.z()) > 1 - 1e-9 || at.head<2>().cwiseAbs().maxCoeff() > 0.5 - 1e-9) held[node] = 0;
+      }
+      mesh::test::bend_sideways(mesh);
+      for (auto& [node, temperature] : held) temperature = linear(mesh.nodes[node]);
+      ASSERT_LT(held.size(), mesh.nodes.size());
+      const Eigen::VectorXd temperature = test::steady(model_of(mesh, perfect), held);
+      for (const NodeId node : mesh.nodes.ids()) {
+        EXPECT_NEAR(temperature[node.value()], linear(mesh.nodes[node]), 1e-9) << name_of(lower) << " " << name_of(upper);
+      }
+    }
+  }
+}
+
+TEST(JointsOfCells, PassALinearFieldInThePlane) {
+  const auto linear = [](const Point<2>& point) { return 300 + 7 * point.x() - 5 * point.y(); };
+  const auto mesh =
+      mesh::test::cell_boxes<2>({{.centre = {0, -0.5, 0}, .mesh_size = 0.5, .kind = mesh::CellKind::quadrilateral},
+                                 {.centre = {0, 0.5, 0}, .mesh_size = 0.34, .kind = mesh::CellKind::quadrilateral}});
+  test::Held held;
+  for (const NodeId node : mesh.nodes.ids()) {
+    const Point<2>& at = mesh.nodes[node];
+    if (std::abs(at.y()) > 1 - 1e-9 || std::abs(at.x()) > 0.5 - 1e-9) held[node] = linear(at);
+  }
+  const Eigen::VectorXd temperature = test::steady(model_of(mesh, perfect), held);
+  for (const NodeId node : mesh.nodes.ids()) EXPECT_NEAR(temperature[node.value()], linear(mesh.nodes[node]), 1e-10);
+}
+
+void expect_kernel_of_constants(const HeatModel& model, const std::string& name) {
+  const double scale = model.conductance.coeffs().abs().maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(model.conductance), Eigen::EigenvaluesOnly);
+  EXPECT_NEAR(eigen.eigenvalues()[0], 0, 1e-13 * scale) << name;
+  EXPECT_GT(eigen.eigenvalues()[1], 1e-3 * scale) << name;
+}
+
+TEST(JointsOfCells, ArePositiveSemidefiniteIfTheyArePerfect) {
+  for (const Kind& lower : solids) {
+    for (const Kind& upper : solids) {
+      auto mesh = two_boxes(lower, 1.0, upper, 0.34, 0.3);
+      mesh::test::bend_sideways(mesh);
+      expect_kernel_of_constants(model_of(mesh, perfect), name_of(lower) + " " + name_of(upper));
+    }
+  }
+  expect_kernel_of_constants(
+      model_of(mesh::test::cell_boxes<2>({{.centre = {0, -0.5, 0}, .kind = mesh::CellKind::quadrilateral},
+                                          {.centre = {0.1, 0.5, 0}, .mesh_size = 0.34, .kind = mesh::CellKind::quadrilateral}}),
+               perfect),
+      "quadrilateral");
+}
+
+// A quarter turn: the diagonals by which the search sees the two sides cross.
+TEST(JointsOfCells, AreTiedWhereQuadrilateralsMatchWhateverTheirDiagonals) {
+  for (const double turn : {0.0, M_PI / 2}) {
+    const auto mesh = two_boxes(mesh::CellKind::hexahedron, 1.0, mesh::CellKind::hexahedron, 1.0, turn);
+    EXPECT_EQ(model_of(mesh, perfect).tied_nodes, 4) << turn;
+    EXPECT_LT(error_in_series(mesh, perfect, 1e300), 1e-10) << turn;
+  }
+}
+
+// Tied, they would share out even heat differently: the two triangles give a third of it to either end of their diagonal.
+TEST(JointsOfCells, AreNotTiedWhereAQuadrilateralMeetsTwoTetrahedra) {
+  auto mesh = two_boxes(mesh::CellKind::hexahedron, 1.0, mesh::CellKind::hexahedron, 1.0);
+  mesh.blocks[BlockId{1}].cells = {};
+  EXPECT_EQ(model_of(mesh, perfect).tied_nodes, 0);
+  EXPECT_LT(error_in_series(mesh, perfect, 1e300), 1e-10);
+}
+
+}  // namespace
+}  // namespace scree::thermal
