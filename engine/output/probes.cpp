@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/geometry.h"
+#include "engine/mesh/cells.h"
+#include "engine/output/cell_reading.h"
 
 namespace scree::output {
 
@@ -114,8 +116,8 @@ Problem in_a_void(const ProbeSpec& spec, const mesh::BlockMesh<dim>& mesh, const
 }
 
 template <int dim>
-Stencil reading_of(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Nearest<dim>& nearest,
-                   Reading reading) {
+Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const Table<ElementId, CellId>& cells, BlockId block,
+                   const Point<dim>& point, const Nearest<dim>& nearest, Reading reading) {
   const auto& nodes = mesh.elements[nearest.element];
   if (reading == Reading::cubic) {
     Aabb<dim> box;
@@ -123,6 +125,7 @@ Stencil reading_of(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<
     Stencil stencil = cubic_stencil<dim>(mesh, block, point, box.sizes());
     if (!stencil.nodes.empty()) return stencil;
   }
+  if (const CellId cell = cells[nearest.element]; cell.valid()) return cell_stencil<dim>(mesh, cell, point);
   return {{nodes.begin(), nodes.end()}, {nearest.weights.begin(), nearest.weights.end()}};
 }
 
@@ -131,6 +134,7 @@ Stencil reading_of(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<
 template <int dim>
 std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs, Reading reading) {
   const auto blocks = mesh::element_blocks(mesh);
+  const auto cells = mesh::element_cells(mesh);
   std::vector<Probe<dim>> probes;
   std::vector<Problem> problems;
   for (const ProbeSpec& spec : specs) {
@@ -145,7 +149,7 @@ std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const st
       probe.point.setZero();
       for (int i = 0; i <= dim; ++i) probe.point += nearest.weights[i] * mesh.nodes[mesh.elements[nearest.element][i]];
     }
-    probe.reading = reading_of<dim>(mesh, probe.block, probe.point, nearest, reading);
+    probe.reading = reading_of<dim>(mesh, cells, probe.block, probe.point, nearest, reading);
     probes.push_back(std::move(probe));
   }
   if (!problems.empty()) throw InputError(std::move(problems));

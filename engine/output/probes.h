@@ -39,7 +39,7 @@ struct Probe {
 
 // How a value between nodes is found.
 enum class Reading {
-  linear,  // from the corners of the element
+  linear,  // from the corners of the element, or of the cell (cell_reading.h)
   cubic,   // cubic_reading.h
 };
 

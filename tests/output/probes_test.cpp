@@ -104,6 +104,20 @@ TEST(Probes, ReadFieldsAlongABarOfOneCellAsFarAsItsLayersDetermineThem) {
   }
 }
 
+// A field that is odd along two edges of the cube: on one diagonal of its faces it is positive, on the other negative.
+TEST(Probes, PreferNoDiagonalOfACell) {
+  const auto mesh = grid({1, 1, 1}, 1);
+  const Eigen::VectorXd field =
+      at_nodes(mesh, [](const Eigen::Vector3d& at) { return at.x() * at.y() + at.y() * at.z() * at.x(); });
+  const auto read = [&](const Eigen::Vector3d& at) { return value_at(locate_probes(mesh, {{"p", at}})[0], field); };
+  EXPECT_NEAR(read({0, 0, 0}), 0, 1e-15);
+  EXPECT_NEAR(read({0, 0, 0.5}), 0, 1e-15) << "the middle of a face is the mean of its corners";
+  for (const double x : {0.1, 0.3, 0.45}) {
+    EXPECT_NEAR(read({x, 0.2, 0.5}), -read({-x, 0.2, 0.5}), 1e-15);
+    EXPECT_NEAR(read({x, 0.2, 0.5}), read({0.2, x, 0.5}), 1e-15);
+  }
+}
+
 TEST(Probes, TheBoundaryBelongsToTheBlock) {
   const auto mesh = two_tets();
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0.4, 0), Eigen::Vector3d(0.1, 0.2, 0.7),
