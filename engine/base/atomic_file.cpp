@@ -17,11 +17,12 @@ namespace {
 // The file that a name stands for: through a symbolic link its target, which need not be there yet.
 std::filesystem::path target_of(const std::filesystem::path& name) {
   std::filesystem::path file = name;
-  std::error_code ignored;
+  std::error_code ignored, unreadable;
   auto status = std::filesystem::symlink_status(file, ignored);
   constexpr int most_links = 40;  // as the system follows
   for (int i = 0; i < most_links && std::filesystem::is_symlink(status); ++i) {
-    file = file.parent_path() / std::filesystem::read_symlink(file);
+    file = file.parent_path() / std::filesystem::read_symlink(file, unreadable);
+    if (unreadable) fail(name, unreadable);
     status = std::filesystem::symlink_status(file, ignored);
   }
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {

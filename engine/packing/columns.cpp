@@ -75,9 +75,12 @@ Columns empty_grid(const Aabb<3>& pile, double size) {
 void enter(const Part& part, Columns& columns) {
   const Vector2d origin = columns.lines.front().place;
   const auto index = [&](double at, int axis) { return (at - origin[axis]) / columns.spacing; };
-  const auto first = [&](int axis) { return std::max(0, static_cast<int>(std::ceil(index(part.box.min()[axis], axis)))); };
+  // Between the first column and one behind the last, or from one before the first: a part may be anywhere.
+  const auto first = [&](int axis) {
+    return static_cast<int>(std::clamp<double>(std::ceil(index(part.box.min()[axis], axis)), 0, columns.side));
+  };
   const auto last = [&](int axis) {
-    return static_cast<int>(std::floor(std::min<double>(columns.side - 1, index(part.box.max()[axis], axis))));
+    return static_cast<int>(std::clamp<double>(std::floor(index(part.box.max()[axis], axis)), -1, columns.side - 1));
   };
   for (int j = first(1); j <= last(1); ++j) {
     for (int i = first(0); i <= last(0); ++i) {

@@ -56,7 +56,7 @@ Eigen::Vector3d mean_of_turns(const Eigen::Vector3d& moments, const Eigen::Vecto
   const double of_low = 1 / moments[low] - 1 / moments[middle], of_high = 1 / moments[high] - 1 / moments[middle];
   Eigen::Vector3d momentum = moments.cwiseProduct(spin);
   const double fastest = momentum.norm() * (of_low - of_high);
-  const int rounds = std::clamp(static_cast<int>(std::ceil(fastest * time_step / most_turned)), 1, most_rounds);
+  const auto rounds = static_cast<int>(std::clamp<double>(std::ceil(fastest * time_step / most_turned), 1, most_rounds));
   const double time = time_step / rounds;
   Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
   for (int round = 0; round < rounds; ++round) {
