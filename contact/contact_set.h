@@ -21,28 +21,30 @@ struct NoFourth {
   static constexpr bool valid() { return false; }
 };
 
-// A point of a block as a weighted mean of nodes on its surface; weights sum to 1. An edge uses two of the three
-// entries in 3-D and gives the third weight 0.
+// A point of a block as a weighted mean of nodes on its surface. An edge uses two of the three entries in 3-D and gives the
+// third weight 0.
 template <int dim>
 struct Stencil {
   std::array<NodeId, dim> nodes;  // of the face that was found
-  // The corner that a cell's quadrilateral has besides (both_diagonals.h); not valid elsewhere.
+  // The corner that a cell's quadrilateral has besides (both_diagonals.h), with the weight that the others lack of 1; not valid
+  // elsewhere, where they sum to 1.
   [[no_unique_address]] std::conditional_t<dim == 3, NodeId, NoFourth> fourth{};
   std::array<double, dim> weights{};
 };
 
-// Of the fourth corner: what the others lack of 1.
-inline double fourth_weight(const Stencil<3>& stencil) {
-  return 1 - (stencil.weights[0] + stencil.weights[1] + stencil.weights[2]);
+// Calls `visit` with each node and its weight.
+template <int dim, class Visit>
+void for_each_weight(const Stencil<dim>& stencil, const Visit& visit) {
+  for (int i = 0; i < dim; ++i) visit(stencil.nodes[i], stencil.weights[i]);
+  if constexpr (dim == 3) {
+    if (stencil.fourth.valid()) visit(stencil.fourth, 1 - (stencil.weights[0] + stencil.weights[1] + stencil.weights[2]));
+  }
 }
 
 template <int dim>
 Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Stencil<dim>& stencil) {
-  Point<dim> sum = stencil.weights[0] * mesh.nodes[stencil.nodes[0]];
-  for (int i = 1; i < dim; ++i) sum += stencil.weights[i] * mesh.nodes[stencil.nodes[i]];
-  if constexpr (dim == 3) {
-    if (stencil.fourth.valid()) sum += fourth_weight(stencil) * mesh.nodes[stencil.fourth];
-  }
+  Point<dim> sum = Point<dim>::Zero();
+  for_each_weight(stencil, [&](NodeId node, double weight) { sum += weight * mesh.nodes[node]; });
   return sum;
 }
 
@@ -75,7 +77,7 @@ Point<dim> point_of(const mesh::BlockMesh<dim>& mesh, const Contact<dim>& contac
 
 // Where the paper puts the owner's share of the flow: a semi-spring's vertex (12), a semi-edge's two vertices (13). An overlap
 // has no vertex, and this is on_owner. A semi-spring or semi-edge is moved inwards by as much as the least of its weights, that
-// of a corner which has no part in its vertices, tells.
+// of a corner which has no part in its vertices, tells; only semi-springs may have a fourth corner, which is no vertex.
 template <int dim>
 Stencil<dim> literal_owner(const Contact<dim>& contact) {
   Stencil<dim> owner = contact.on_owner;

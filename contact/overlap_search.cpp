@@ -125,44 +125,43 @@ class WholeFaces {
  public:
   WholeFaces(const Surface<dim>& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
 
-  void points(FaceId first, FaceId second, std::vector<OverlapPoint<dim>>& points) const {
-    points_of_parts({first, corners_of(surface_, first)}, {second, corners_of(surface_, second)}, points);
+  void find(FaceId first, FaceId second, std::vector<OverlapPoint<dim>>& points) const {
+    find(first, corners_of(surface_, first), second, corners_of(surface_, second), points);
   }
 
- protected:
-  struct Part {
-    FaceId face;
-    Corners<dim> corners;
-  };
-
-  void points_of_parts(const Part& first, const Part& second, std::vector<OverlapPoint<dim>>& points) const {
+  // Of a part of each.
+  void find(FaceId first, const Corners<dim>& of_first, FaceId second, const Corners<dim>& of_second,
+            std::vector<OverlapPoint<dim>>& points) const {
     points.clear();
-    const auto pair =
-        opposed_faces<dim>(first.corners, surface_.normals[first.face], second.corners, surface_.normals[second.face]);
-    if (!pair) return;
-    overlap_points(*pair, tolerance_ * std::min(surface_.lengths[first.face], surface_.lengths[second.face]), points);
+    const auto pair = opposed_faces<dim>(of_first, surface_.normals[first], of_second, surface_.normals[second]);
+    if (pair) overlap_points(*pair, tolerance_ * std::min(surface_.lengths[first], surface_.lengths[second]), points);
   }
 
+ private:
   const Surface<dim>& surface_;
   double tolerance_;
 };
 
 // The same where the triangles of cells' quadrilaterals are cut in two (both_diagonals.h), so that what is not linear in them
 // is integrated exactly, too.
-class HalvedFaces : public WholeFaces<3> {
+class HalvedFaces {
  public:
   HalvedFaces(const Surface<3>& surface, double tolerance)
-      : WholeFaces(surface, tolerance), cells_(mesh::element_cells(surface.mesh)) {}
+      : surface_(surface), faces_(surface, tolerance), cells_(mesh::cells_of_elements(surface.mesh)) {}
 
-  void points(FaceId first, FaceId second, std::vector<OverlapPoint<3>>& points) const {
+  void find(FaceId first, FaceId second, std::vector<OverlapPoint<3>>& points) const {
+    faces_.find(first, second, points);
+    if (points.empty()) return;  // most pairs have a side in common only
+    const Parts of_first = parts(first), of_second = parts(second);
+    if (of_first.size() == 1 && of_second.size() == 1) return;
     points.clear();
-    std::vector<OverlapPoint<3>> some;
-    const auto of_second = parts(second);
-    for (const TrianglePart& a : parts(first)) {
+    std::vector<OverlapPoint<3>> of_parts;
+    for (const TrianglePart& a : of_first) {
       for (const TrianglePart& b : of_second) {
-        points_of_parts(part(first, a), part(second, b), some);
-        for (const OverlapPoint<3>& at : some)
+        faces_.find(first, corners_in(first, a), second, corners_in(second, b), of_parts);
+        for (const OverlapPoint<3>& at : of_parts) {
           points.push_back({in_whole(a, at.on_first), in_whole(b, at.on_second), at.area, at.gap});
+        }
       }
     }
   }
@@ -180,11 +179,11 @@ class HalvedFaces : public WholeFaces<3> {
     return {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
   }
 
-  [[nodiscard]] Part part(FaceId face, const TrianglePart& part) const {
+  [[nodiscard]] Corners<3> corners_in(FaceId face, const TrianglePart& part) const {
     const Corners<3> whole = corners_of(surface_, face);
-    Part found{face, {}};
-    for (std::size_t i = 0; i < 3; ++i) found.corners[i] = weighted_point<3>(whole, part[i]);
-    return found;
+    Corners<3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = weighted_point<3>(whole, part[i]);
+    return corners;
   }
 
   static std::array<double, 3> in_whole(const TrianglePart& part, const std::array<double, 3>& weights) {
@@ -195,6 +194,8 @@ class HalvedFaces : public WholeFaces<3> {
     return of_whole;
   }
 
+  const Surface<3>& surface_;
+  WholeFaces<3> faces_;
   Table<ElementId, CellId> cells_;
 };
 
@@ -208,7 +209,7 @@ Items of_overlaps(const Surface<dim>& surface, double tolerance, const Faces& ov
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
       for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
-        overlaps.points(FaceId{f}, pairs.values[i], points);
+        overlaps.find(FaceId{f}, pairs.values[i], points);
         if (!points.empty()) make(FaceId{f}, pairs.values[i], points, items);
       }
     }

@@ -17,7 +17,7 @@ std::array<double, dim> semi_spring_weights(int corner, double indentation) {
   return weights;
 }
 
-// A_SS = A_face / N_vertices, eq. (9) [m2].
+// A_SS = A_face / N_vertices, eq. (9), of a triangle or edge [m2]; those of quadrilaterals follow (both_diagonals.h).
 template <int dim>
 double semi_spring_area(const Surface<dim>& surface, FaceId face) {
   return surface.areas[face] / dim;

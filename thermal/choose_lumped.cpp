@@ -37,7 +37,7 @@ template <int dim>
 class Chooser {
  public:
   Chooser(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints, const HeatOptions& options,
+          const contact::ContactSet<dim>& contacts, const JointConduction& joints, const HeatOptions& options,
           const HeatModel& model)
       : mesh_(mesh),
         materials_(materials),
@@ -113,7 +113,7 @@ class Chooser {
   }
 
   void look_at_perfect() {
-    for (const PerfectTerm<dim>& term : joints_.perfect) {
+    for (const PerfectTerm& term : joints_.perfect.terms) {
       for (const BlockId b : {contacts_[term.contact].owner, contacts_[term.contact].target}) {
         if (wanted_[b] == BlockModel::automatic) wanted_[b] = BlockModel::meshed;
         if (wanted_[b] != BlockModel::lumped) continue;
@@ -241,7 +241,7 @@ class Chooser {
   const mesh::BlockMesh<dim>& mesh_;
   const Table<MaterialId, Material>& materials_;
   const contact::Contacts<dim>& contacts_;
-  const JointConduction<dim>& joints_;
+  const JointConduction& joints_;
   const HeatOptions& options_;
   const HeatModel& model_;
   const Drive start_;  // what acts from outside then
@@ -255,17 +255,17 @@ class Chooser {
 
 template <int dim>
 std::optional<LumpedBlocks> choose_lumped(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
+                                          const contact::ContactSet<dim>& contacts, const JointConduction& joints,
                                           const HeatOptions& options, const HeatModel& model) {
   if (options.blocks.all_meshed()) return std::nullopt;
   return Chooser<dim>(mesh, materials, contacts, joints, options, model).choose();
 }
 
 template std::optional<LumpedBlocks> choose_lumped<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
-                                                      const contact::ContactSet<2>&, const JointConduction<2>&,
-                                                      const HeatOptions&, const HeatModel&);
+                                                      const contact::ContactSet<2>&, const JointConduction&, const HeatOptions&,
+                                                      const HeatModel&);
 template std::optional<LumpedBlocks> choose_lumped<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
-                                                      const contact::ContactSet<3>&, const JointConduction<3>&,
-                                                      const HeatOptions&, const HeatModel&);
+                                                      const contact::ContactSet<3>&, const JointConduction&, const HeatOptions&,
+                                                      const HeatModel&);
 
 }  // namespace scree::thermal

@@ -19,7 +19,7 @@ namespace scree::thermal {
 // depends on place, or tied to another without resistance; an automatic choice meshes such a block.
 template <int dim>
 std::optional<LumpedBlocks> choose_lumped(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
+                                          const contact::ContactSet<dim>& contacts, const JointConduction& joints,
                                           const HeatOptions& options, const HeatModel& model);
 
 }  // namespace scree::thermal

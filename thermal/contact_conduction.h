@@ -26,15 +26,10 @@ struct TemperatureDifference {
   std::array<double, 2 * most> weights{};
 
   void add(int first, double sign, const contact::Stencil<dim>& stencil) {
-    for (int i = 0; i < dim; ++i) {
-      nodes[first + i] = stencil.nodes[i];
-      weights[first + i] = sign * stencil.weights[i];
-    }
-    if constexpr (dim == 3) {
-      if (!stencil.fourth.valid()) return;
-      nodes[first + dim] = stencil.fourth;
-      weights[first + dim] = sign * contact::fourth_weight(stencil);
-    }
+    for_each_weight(stencil, [&](NodeId node, double weight) {
+      nodes[first] = node;
+      weights[first++] = sign * weight;
+    });
   }
 };
 
@@ -53,10 +48,7 @@ TemperatureDifference<dim> temperature_difference(const contact::Contact<dim>& c
 template <int dim>
 double temperature_drop(const contact::Contact<dim>& contact, JointForm form, const Eigen::VectorXd& temperature) {
   const auto add = [&](const contact::Stencil<dim>& side, double sign, double sum) {
-    for (int i = 0; i < dim; ++i) sum += sign * side.weights[i] * temperature[side.nodes[i].value()];
-    if constexpr (dim == 3) {
-      if (side.fourth.valid()) sum += sign * contact::fourth_weight(side) * temperature[side.fourth.value()];
-    }
+    for_each_weight(side, [&](NodeId node, double weight) { sum += sign * weight * temperature[node.value()]; });
     return sum;
   };
   const bool as_found = form == JointForm::consistent;

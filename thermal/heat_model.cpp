@@ -184,8 +184,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
 
 template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
-                          const HeatOptions& options) {
+                          const contact::ContactSet<dim>& contacts, const JointConduction& joints, const HeatOptions& options) {
   HeatModel model = unjoined(mesh, materials, options, {});
   check_held_joints(joints, model, options.time.until);
   set_varying(mesh, materials, model);
@@ -211,7 +210,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
                                           const contact::ContactSet<dim>&, const HeatOptions&);                              \
   template HeatModel make_heat_model<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,                   \
-                                          const contact::ContactSet<dim>&, const JointConduction<dim>&, const HeatOptions&);
+                                          const contact::ContactSet<dim>&, const JointConduction&, const HeatOptions&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -112,7 +112,6 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
 // Where the conduction of the contacts is known already.
 template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                          const contact::ContactSet<dim>& contacts, const JointConduction<dim>& joints,
-                          const HeatOptions& options);
+                          const contact::ContactSet<dim>& contacts, const JointConduction& joints, const HeatOptions& options);
 
 }  // namespace scree::thermal

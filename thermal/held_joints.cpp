@@ -26,51 +26,48 @@ const Hold* held_by(NodeId node, const HeatModel& model, const std::vector<int>&
 }
 
 // Whether all nodes that have to do with it are held.
-template <int dim>
-bool is_held(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds) {
-  for (int i = 0; i < term.size; ++i) {
-    if (term.jump[i] != 0 && held_by(term.nodes[i], model, holds) == nullptr) return false;
+bool is_held(const PerfectNodes& of_term, const HeatModel& model, const std::vector<int>& holds) {
+  for (std::size_t i = 0; i < of_term.size(); ++i) {
+    if (of_term.jump[i] != 0 && held_by(of_term.nodes[i], model, holds) == nullptr) return false;
   }
   return true;
 }
 
-template <int dim>
-bool varies_in_time(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds) {
-  for (int i = 0; i < term.size; ++i) {
-    if (term.jump[i] != 0 && held_by(term.nodes[i], model, holds)->temperature.varies_in_time()) return true;
+bool varies_in_time(const PerfectNodes& of_term, const HeatModel& model, const std::vector<int>& holds) {
+  for (std::size_t i = 0; i < of_term.size(); ++i) {
+    if (of_term.jump[i] != 0 && held_by(of_term.nodes[i], model, holds)->temperature.varies_in_time()) return true;
   }
   return false;
 }
 
-template <int dim>
-HeldJump held_jump(const PerfectTerm<dim>& term, const HeatModel& model, const std::vector<int>& holds, double time) {
+HeldJump held_jump(const PerfectNodes& of_term, const HeatModel& model, const std::vector<int>& holds, double time) {
   HeldJump jump;
-  for (int i = 0; i < term.size; ++i) {
-    if (term.jump[i] == 0) continue;
-    const Hold& by = *held_by(term.nodes[i], model, holds);
-    const double temperature = by.temperature(model.places.col(term.nodes[i].value()), time);
-    jump.difference += term.jump[i] * temperature;
+  for (std::size_t i = 0; i < of_term.size(); ++i) {
+    if (of_term.jump[i] == 0) continue;
+    const Hold& by = *held_by(of_term.nodes[i], model, holds);
+    const double temperature = by.temperature(model.places.col(of_term.nodes[i].value()), time);
+    jump.difference += of_term.jump[i] * temperature;
     jump.size = std::max(jump.size, std::abs(temperature));
-    (i < term.owners ? jump.first : jump.second) = &by;
+    (i < of_term.owners ? jump.first : jump.second) = &by;
   }
   return jump;
 }
 
 }  // namespace
 
-template <int dim>
-void check_held_joints(const JointConduction<dim>& joints, const HeatModel& model, double until) {
-  if (joints.perfect.empty() || model.holds.empty()) return;
+void check_held_joints(const JointConduction& joints, const HeatModel& model, double until) {
+  if (joints.perfect.terms.empty() || model.holds.empty()) return;
   const std::vector<int> holds = holds_of_nodes(model);
   LooksInTime looks(until);
-  for (const PerfectTerm<dim>& term : joints.perfect) {
-    if (!is_held(term, model, holds)) continue;
-    const auto time = looks.first(varies_in_time(term, model, holds), [&](double at) {
-      const HeldJump jump = held_jump(term, model, holds, at);
+  for (const PerfectTerm& term : joints.perfect.terms) {
+    const PerfectNodes of_term = joints.perfect.nodes_of(term);
+    if (!is_held(of_term, model, holds)) continue;
+    const auto time = looks.first(varies_in_time(of_term, model, holds), [&](double at) {
+      const HeldJump jump = held_jump(of_term, model, holds, at);
       return std::abs(jump.difference) > equal_temperatures * jump.size;
     });
     if (!time) continue;
-    const HeldJump jump = held_jump(term, model, holds, *time);
+    const HeldJump jump = held_jump(of_term, model, holds, *time);
     throw InputError(problem(
         "contact",
         fmt::format("a perfect joint held on both sides, by {} and by {}, {:g} K apart{}", jump.first->name, jump.second->name,
@@ -78,8 +75,5 @@ void check_held_joints(const JointConduction<dim>& joints, const HeatModel& mode
         "must have one temperature", "Hold one side only, or give the joint a conductance"));
   }
 }
-
-template void check_held_joints<2>(const JointConduction<2>&, const HeatModel&, double);
-template void check_held_joints<3>(const JointConduction<3>&, const HeatModel&, double);
 
 }  // namespace scree::thermal

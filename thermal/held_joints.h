@@ -7,7 +7,6 @@ namespace scree::thermal {
 
 // Throws InputError for a perfect joint that is held at different temperatures on its two sides, at any time up to the end of
 // the run [s] as far as looks tell: the heat that would flow there has no bound, and what came out would be that of the mesh.
-template <int dim>
-void check_held_joints(const JointConduction<dim>& joints, const HeatModel& model, double until);
+void check_held_joints(const JointConduction& joints, const HeatModel& model, double until);
 
 }  // namespace scree::thermal

@@ -47,19 +47,18 @@ TemperatureDifference<dim> between_rows(TemperatureDifference<dim> difference, c
 }
 
 // A perfect term between rows of the model: nodes that share one are one entry.
-template <int dim>
 struct RowTerm {
   int size = 0;
-  std::array<int, PerfectTerm<dim>::most> rows{};
-  std::array<double, PerfectTerm<dim>::most> jump{};
-  std::array<double, PerfectTerm<dim>::most> flux{};
+  std::array<int, PerfectTerms::most_nodes> rows{};
+  std::array<double, PerfectTerms::most_nodes> jump{};
+  std::array<double, PerfectTerms::most_nodes> flux{};
 
-  RowTerm(const PerfectTerm<dim>& term, const NodeMap& map) {
-    for (int i = 0; i < term.size; ++i) {
-      const int here = find(map[term.nodes[i]].value());
-      rows[here] = map[term.nodes[i]].value();
-      jump[here] += term.jump[i];
-      flux[here] += term.flux[i];
+  RowTerm(const PerfectNodes& of_term, const NodeMap& map) {
+    for (std::size_t i = 0; i < of_term.size(); ++i) {
+      const int here = find(map[of_term.nodes[i]].value());
+      rows[here] = map[of_term.nodes[i]].value();
+      jump[here] += of_term.jump[i];
+      flux[here] += of_term.flux[i];
       size = std::max(size, here + 1);
     }
   }
@@ -74,7 +73,7 @@ struct RowTerm {
 template <int dim>
 class JointRows {
  public:
-  JointRows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form, Field field,
+  JointRows(const contact::ContactSet<dim>& contacts, const JointConduction& conduction, JointForm form, Field field,
             const NodeMap& rows, std::size_t size)
       : contacts_(contacts),
         conduction_(conduction),
@@ -84,12 +83,12 @@ class JointRows {
         contacts_at_(
             incidence_of(size, conduction.conductances.size(),
                          [this](std::size_t contact, const auto& visit) { this->visit_rows_of_contact(contact, visit); })),
-        perfect_at_(incidence_of(conduction.perfect.empty() ? 0 : size, conduction.perfect.size(),
+        perfect_at_(incidence_of(conduction.perfect.terms.empty() ? 0 : size, conduction.perfect.terms.size(),
                                  [this](std::size_t term, const auto& visit) { this->visit_rows_of_perfect(term, visit); })) {}
 
   void add_row(int row, RowSum& sum) const {
-    if (!conduction_.perfect.empty()) {
-      for (const std::uint32_t term : perfect_at_.of(row)) add_perfect(conduction_.perfect[term], row, sum);
+    if (!conduction_.perfect.terms.empty()) {
+      for (const std::uint32_t term : perfect_at_.of(row)) add_perfect(conduction_.perfect.terms[term], row, sum);
     }
     for (const std::uint32_t contact : contacts_at_.of(row)) add_contact(contact, row, sum);
   }
@@ -101,9 +100,10 @@ class JointRows {
 
   // Terms come in the order of their contacts.
   [[nodiscard]] bool is_perfect(std::size_t contact) const {
-    const auto before = [](const PerfectTerm<dim>& term, std::size_t other) { return term.contact < other; };
-    const auto found = std::lower_bound(conduction_.perfect.begin(), conduction_.perfect.end(), contact, before);
-    return found != conduction_.perfect.end() && found->contact == contact;
+    const auto before = [](const PerfectTerm& term, std::size_t other) { return term.contact < other; };
+    const auto& terms = conduction_.perfect.terms;
+    const auto found = std::lower_bound(terms.begin(), terms.end(), contact, before);
+    return found != terms.end() && found->contact == contact;
   }
 
   template <class Visit>
@@ -117,10 +117,10 @@ class JointRows {
 
   template <class Visit>
   void visit_rows_of_perfect(std::size_t number, const Visit& visit) const {
-    const PerfectTerm<dim>& of_nodes = conduction_.perfect[number];
-    if (of_nodes.of_phi.has_value() != (field_ == Field::phi)) return;
-    if (is_tied(contacts_.contacts[of_nodes.contact], rows_)) return;
-    const RowTerm<dim> term(of_nodes, rows_);
+    const PerfectTerm& perfect = conduction_.perfect.terms[number];
+    if (perfect.of_phi.has_value() != (field_ == Field::phi)) return;
+    if (is_tied(contacts_.contacts[perfect.contact], rows_)) return;
+    const RowTerm term(conduction_.perfect.nodes_of(perfect), rows_);
     for (int i = 0; i < term.size; ++i) visit(term.rows[i]);
   }
 
@@ -135,10 +135,10 @@ class JointRows {
   }
 
   // The diagonal is minus the sum of the others, so that the row sums to zero to the last bit of what is entered.
-  void add_perfect(const PerfectTerm<dim>& of_nodes, int row, RowSum& sum) const {
-    const double conductance = conduction_.conductances[of_nodes.contact];
-    const double scale = of_nodes.of_phi.value_or(1);
-    const RowTerm<dim> term(of_nodes, rows_);
+  void add_perfect(const PerfectTerm& perfect, int row, RowSum& sum) const {
+    const double conductance = conduction_.conductances[perfect.contact];
+    const double scale = perfect.of_phi.value_or(1);
+    const RowTerm term(conduction_.perfect.nodes_of(perfect), rows_);
     const int here = term.find(row);
     for (int i = 0; i < term.size; ++i) {
       if (i == here) continue;
@@ -151,7 +151,7 @@ class JointRows {
   }
 
   const contact::ContactSet<dim>& contacts_;
-  const JointConduction<dim>& conduction_;
+  const JointConduction& conduction_;
   JointForm form_;
   Field field_;
   const NodeMap& rows_;
@@ -160,18 +160,18 @@ class JointRows {
 };
 
 // As differences within each side: the fluxes of a side sum to zero only to rounding, and temperatures in kelvin are large.
-template <int dim>
-double perfect_flow(const PerfectTerm<dim>& term, const JointConduction<dim>& conduction, const Eigen::VectorXd& temperature) {
-  std::array<double, PerfectTerm<dim>::most> field{};  // as if k were that at the reference temperature [K]
-  for (int i = 0; i < term.size; ++i) {
-    const double at = temperature[term.nodes[i].value()];
+double perfect_flow(const PerfectTerm& term, const JointConduction& conduction, const Eigen::VectorXd& temperature) {
+  const PerfectNodes of_term = conduction.perfect.nodes_of(term);
+  std::array<double, PerfectTerms::most_nodes> field{};  // as if k were that at the reference temperature [K]
+  for (std::size_t i = 0; i < of_term.size(); ++i) {
+    const double at = temperature[of_term.nodes[i].value()];
     field[i] = term.of_phi ? *term.of_phi * conduction.conductivities[term.material.index()].integral(at) : at;
   }
   double drop = 0;
   double flux = 0;
-  for (int i = 0; i < term.size; ++i) {
-    drop += term.jump[i] * field[i];
-    flux += term.flux[i] * (field[i] - field[i < term.owners ? 0 : term.owners]);
+  for (std::size_t i = 0; i < of_term.size(); ++i) {
+    drop += of_term.jump[i] * field[i];
+    flux += of_term.flux[i] * (field[i] - field[i < of_term.owners ? 0 : of_term.owners]);
   }
   return conduction.conductances[term.contact] * drop - flux;
 }
@@ -196,23 +196,24 @@ void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact, co
 }  // namespace
 
 template <int dim>
-JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                      const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
-  JointConduction<dim> conduction;
+JointConduction joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                                 const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
+  JointConduction conduction;
   conduction.perfect = perfect_terms(mesh, materials, contacts, joint);
-  const bool any_of_phi = std::any_of(conduction.perfect.begin(), conduction.perfect.end(),
-                                      [](const PerfectTerm<dim>& term) { return term.of_phi.has_value(); });
+  const auto& terms = conduction.perfect.terms;
+  const bool any_of_phi =
+      std::any_of(terms.begin(), terms.end(), [](const PerfectTerm& term) { return term.of_phi.has_value(); });
   if (any_of_phi) {
     for (const Material& material : materials) {
       conduction.conductivities.push_back(material.conductivity ? material.conductivity->value : Curve());
     }
   }
   conduction.conductances.reserve(contacts.contacts.size());
-  auto perfect = conduction.perfect.begin();
+  auto perfect = terms.begin();
   for (const auto& contact : contacts.contacts) {
     ContactSides sides;
     sides.mean_conductivity = mean_conductivity(mesh, materials, contact);
-    const bool has_term = perfect != conduction.perfect.end() && perfect->contact == conduction.conductances.size();
+    const bool has_term = perfect != terms.end() && perfect->contact == conduction.conductances.size();
     if (has_term) sides.penalty = (perfect++)->penalty;
     const JointLaw& law = law_between(joint, mesh.bodies, mesh.blocks[contact.owner].body, mesh.blocks[contact.target].body);
     conduction.conductances.push_back(contact_conductance(contact, sides, law));
@@ -221,7 +222,7 @@ JointConduction<dim> joint_conduction(const mesh::BlockMesh<dim>& mesh, const Ta
 }
 
 template <int dim>
-void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction, JointForm form, Field field,
+void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction& conduction, JointForm form, Field field,
                 const NodeMap& rows, SparseMatrix& conductance) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
   const bool none = field == Field::phi ? conduction.conductivities.empty() : contacts.contacts.empty();
@@ -239,16 +240,16 @@ void add_joints(const contact::ContactSet<dim>& contacts, const JointConduction<
 }
 
 template <int dim>
-std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const JointConduction<dim>& conduction,
+std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, const JointConduction& conduction,
                                   const Eigen::VectorXd& temperature, JointForm form) {
   SCREE_EXPECT(conduction.conductances.size() == contacts.contacts.size());
   std::vector<double> flows;
   flows.reserve(contacts.contacts.size());
-  auto term = conduction.perfect.begin();
+  auto term = conduction.perfect.terms.begin();
   for (std::size_t c = 0; c < contacts.contacts.size(); ++c) {
     fetch_ahead<dim>(contacts.contacts, c);
     fetch_ahead<dim>(contacts.contacts, c, temperature);
-    if (term != conduction.perfect.end() && term->contact == c) {
+    if (term != conduction.perfect.terms.end() && term->contact == c) {
       flows.push_back(perfect_flow(*term++, conduction, temperature));
     } else {
       flows.push_back(conduction.conductances[c] * temperature_drop(contacts.contacts[c], form, temperature));
@@ -257,12 +258,12 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
   return flows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                         \
-  template JointConduction<dim> joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&, \
-                                                      const contact::ContactSet<dim>&, const JointOptions&);           \
-  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&, JointForm, Field,        \
-                                const NodeMap&, Eigen::SparseMatrix<double>&);                                         \
-  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction<dim>&,        \
+#define SCREE_INSTANTIATE(dim)                                                                                             \
+  template JointConduction joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,          \
+                                                 const contact::ContactSet<dim>&, const JointOptions&);                    \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction&, JointForm, Field, const NodeMap&, \
+                                Eigen::SparseMatrix<double>&);                                                             \
+  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction&,                 \
                                                   const Eigen::VectorXd&, JointForm);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -28,21 +28,20 @@ class PerfectJoints {
     }
   }
 
-  [[nodiscard]] std::vector<PerfectTerm<dim>> terms() {
-    std::vector<PerfectTerm<dim>> terms;
-    if (perfect_.empty()) return terms;
+  [[nodiscard]] PerfectTerms terms() {
+    if (perfect_.empty()) return {};
     bounds_ = Table<ElementId, double>(mesh_.elements.size(), 0);
     if (!mesh_.cells.empty()) {
-      cells_ = mesh::element_cells(mesh_);
+      cells_ = mesh::cells_of_elements(mesh_);
       cell_bounds_ = Table<CellId, CellBounds>(mesh_.cells.size(), CellBounds{});
     }
     for (const std::size_t c : perfect_) {
       add_to_bounds(c, contacts_[c].owner, owner_side(c));
       add_to_bounds(c, contacts_[c].target, target_side(c));
     }
-    terms.reserve(perfect_.size());
-    for (const std::size_t c : perfect_) terms.push_back(term(c));
-    return terms;
+    found_.terms.reserve(perfect_.size());
+    for (const std::size_t c : perfect_) add_term(c);
+    return std::move(found_);
   }
 
  private:
@@ -51,8 +50,9 @@ class PerfectJoints {
   // A simplex behind a face, as the block's conduction has it.
   struct Behind {
     mesh::Simplex<dim> nodes;
-    double* bound;        // c
-    double weight = 1.0;  // in the block's conduction
+    double* bound;       // c
+    double weight = 1;   // in the block's conduction
+    double of_flux = 1;  // part of the face's flux q that is its
   };
   using AllBehind = boost::container::static_vector<Behind, 2>;
 
@@ -65,6 +65,7 @@ class PerfectJoints {
   }
 
   // One of each split: on a quadrilateral the one split has the triangle that was found, the other that of the other diagonal.
+  // If it is seen through one diagonal only, one in all.
   [[nodiscard]] AllBehind behind_cell_face(CellId cell, const contact::Stencil<dim>& point) {
     std::array<NodeId, dim> other = point.nodes;
     if constexpr (dim == 3) {
@@ -76,7 +77,8 @@ class PerfectJoints {
       if (!holds(splits[i], point.nodes) && !holds(splits[i], other)) continue;
       found.push_back({splits[i], &cell_bounds_[cell][i], 0.5});
     }
-    SCREE_EXPECT(found.size() == 2);
+    SCREE_EXPECT(!found.empty());
+    for (Behind& simplex : found) simplex.of_flux = 1.0 / static_cast<double>(found.size());
     return found;
   }
 
@@ -90,7 +92,8 @@ class PerfectJoints {
     const Point<dim> normal = contact_normal(mesh_, contacts_[c]);
     const double conductivity = normal.dot(conducted<dim>(mesh_, materials_, block, normal));
     for (const Behind& simplex : side) {
-      *simplex.bound += contacts_[c].area * conductivity / mesh::simplex_volume(mesh_, simplex.nodes);
+      const double volume = simplex.weight * mesh::simplex_volume(mesh_, simplex.nodes);
+      *simplex.bound += simplex.of_flux * contacts_[c].area * conductivity / volume;
     }
   }
 
@@ -126,9 +129,9 @@ class PerfectJoints {
                              "Give the joint a large conductance instead"));
   }
 
-  [[nodiscard]] PerfectTerm<dim> term(std::size_t c) {
+  void add_term(std::size_t c) {
     const contact::Contact<dim>& contact = contacts_[c];
-    PerfectTerm<dim> term;
+    PerfectTerm term;
     term.contact = c;
     term.material = material(contact.owner);
     const AllBehind owner = owner_side(c), target = target_side(c);
@@ -136,40 +139,42 @@ class PerfectJoints {
     term.penalty = sides.penalty;
     if (sides.one_varying_material) term.of_phi = 1 / materials_[term.material].conductivity->value(reference_temperature);
     const Point<dim> normal = contact_normal(mesh_, contact);
-    add_side(term, owner, contact.area * sides.of_owner * conducted<dim>(mesh_, materials_, contact.owner, normal),
-             contact.on_owner, 1);
-    term.owners = term.size;
-    add_side(term, target, contact.area * sides.of_target * conducted<dim>(mesh_, materials_, contact.target, normal),
+    term.first = found_.nodes.size();
+    add_side(owner, contact.area * sides.of_owner * conducted<dim>(mesh_, materials_, contact.owner, normal), contact.on_owner,
+             1);
+    term.owners = static_cast<std::uint8_t>(found_.nodes.size() - term.first);
+    add_side(target, contact.area * sides.of_target * conducted<dim>(mesh_, materials_, contact.target, normal),
              contact.on_target, -1);
-    return term;
+    term.size = static_cast<std::uint8_t>(found_.nodes.size() - term.first);
+    SCREE_EXPECT(term.size <= PerfectTerms::most_nodes);
+    found_.terms.push_back(term);
   }
 
   // The corners of the simplices, with `weight` . grad T as their flux, and the point's weights.
-  void add_side(PerfectTerm<dim>& term, const AllBehind& side, const Point<dim>& weight, const contact::Stencil<dim>& point,
-                double sign) const {
-    const int first = term.size;
+  void add_side(const AllBehind& side, const Point<dim>& weight, const contact::Stencil<dim>& point, double sign) {
+    const std::size_t first = found_.nodes.size();
     for (const Behind& simplex : side) {
       const Corners<dim> areas = opposite_areas<dim>(corner_points<dim>(mesh_, simplex.nodes));
       const double volume = mesh::simplex_volume(mesh_, simplex.nodes);
       for (int a = 0; a <= dim; ++a) {
-        term.flux[place_of(simplex.nodes[a], first, term)] -= simplex.weight * weight.dot(areas.col(a)) / (dim * volume);
+        const std::size_t at = place_of(simplex.nodes[a], first);
+        found_.flux[at] -= simplex.of_flux * weight.dot(areas.col(a)) / (dim * volume);
       }
     }
-    for (int i = 0; i < dim; ++i) term.jump[place_of(point.nodes[i], first, term)] = sign * point.weights[i];
-    if constexpr (dim == 3) {
-      if (point.fourth.valid()) term.jump[place_of(point.fourth, first, term)] = sign * contact::fourth_weight(point);
-    }
+    for_each_weight(point, [&](NodeId node, double of_point) { found_.jump[place_of(node, first)] = sign * of_point; });
   }
 
   // Where the node is from `first` on, at the end if it was not there.
-  static std::size_t place_of(NodeId node, int first, PerfectTerm<dim>& term) {
-    const auto end = term.nodes.begin() + term.size;
-    const auto found = std::find(term.nodes.begin() + first, end, node);
-    if (found == end) {
-      SCREE_EXPECT(term.size < term.most);
-      term.nodes[term.size++] = node;
+  std::size_t place_of(NodeId node, std::size_t first) {
+    const auto begin = found_.nodes.begin();
+    const auto found = std::find(begin + static_cast<std::ptrdiff_t>(first), found_.nodes.end(), node);
+    const auto place = static_cast<std::size_t>(found - begin);
+    if (found == found_.nodes.end()) {
+      found_.nodes.push_back(node);
+      found_.jump.push_back(0);
+      found_.flux.push_back(0);
     }
-    return static_cast<std::size_t>(found - term.nodes.begin());
+    return place;
   }
 
   const mesh::BlockMesh<dim>& mesh_;
@@ -179,19 +184,20 @@ class PerfectJoints {
   Table<ElementId, double> bounds_;  // of the elements of blocks without cells
   Table<ElementId, CellId> cells_;   // empty if there are no cells
   Table<CellId, CellBounds> cell_bounds_;
+  PerfectTerms found_;
 };
 
 }  // namespace
 
 template <int dim>
-std::vector<PerfectTerm<dim>> perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                            const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
+PerfectTerms perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                           const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
   return PerfectJoints<dim>(mesh, materials, contacts, joint).terms();
 }
 
-template std::vector<PerfectTerm<2>> perfect_terms<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
-                                                      const contact::ContactSet<2>&, const JointOptions&);
-template std::vector<PerfectTerm<3>> perfect_terms<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
-                                                      const contact::ContactSet<3>&, const JointOptions&);
+template PerfectTerms perfect_terms<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
+                                       const contact::ContactSet<2>&, const JointOptions&);
+template PerfectTerms perfect_terms<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
+                                       const contact::ContactSet<3>&, const JointOptions&);
 
 }  // namespace scree::thermal

@@ -16,7 +16,8 @@
 //
 // Where a block is made of cells, its conduction is that of two splits with half the weight each (engine/mesh/cells.h), and q
 // is the mean of the two simplices behind the face. The square of a mean is at most the mean of the squares, so the bounds add
-// up to the block's energy as they do above, with c the larger of the two.
+// up to the block's energy as they do above, with c the larger of the two. A face that is seen through one diagonal has one
+// simplex behind it, whose bound counts twice.
 //
 // Where k depends on temperature, both sides of one material: all of this in Kirchhoff's Phi, the integral of k over T, in
 // which the flux is linear. One side constant: its flux alone, w = 1 and gamma = 2 c, as if the other conducted without end;
@@ -24,7 +25,9 @@
 // have neither, and are refused.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contact/contact_set.h"
@@ -35,26 +38,48 @@ namespace scree::thermal {
 
 // What a quadrature point of a perfect joint adds to a contact's g w w^T: the mean flux q times the point's area is
 // sum of flux times temperatures [W], and K loses w q^T + q w^T.
-template <int dim>
 struct PerfectTerm {
-  static constexpr int most = dim == 3 ? 12 : 8;  // the two simplices behind a cell's face have two corners in common, or more
-  std::size_t contact = 0;                        // in the set
-  double penalty = 0;                             // gamma [W/m2/K]
-  int size = 0;                                   // how many nodes there are, each once
-  int owners = 0;                                 // how many of them are the owner's; they come first
-  std::array<NodeId, most> nodes;
-  std::array<double, most> jump{};  // w: T1 - T2
-  std::array<double, most> flux{};  // [W/K]
+  std::size_t contact = 0;  // in the set
+  double penalty = 0;       // gamma [W/m2/K]
   // Where both sides are of one material whose k depends on temperature: 1/k at the reference temperature, times which all of
   // the term is about Phi instead of T [m K/W].
   std::optional<double> of_phi;
-  MaterialId material;  // of the owner
+  MaterialId material;      // of the owner
+  std::size_t first = 0;    // of its nodes
+  std::uint8_t owners = 0;  // how many of them are the owner's; they come first
+  std::uint8_t size = 0;
 };
 
-// One for each contact of a perfect joint, in the order of the set. Throws InputError for one between two materials whose
-// conductivities depend on temperature.
+// The nodes of a term, each once: corners of the simplices behind the owner's face, then behind the target's.
+struct PerfectNodes {
+  std::span<const NodeId> nodes;
+  std::span<const double> jump;  // w: T1 - T2
+  std::span<const double> flux;  // [W/K]
+  std::size_t owners;
+
+  [[nodiscard]] std::size_t size() const { return nodes.size(); }
+};
+
+// In the order of their contacts.
+struct PerfectTerms {
+  // The two simplices behind a cell's face have two corners in common, or more.
+  static constexpr std::size_t most_nodes = 12;
+
+  std::vector<PerfectTerm> terms;
+  // Of all terms, one after the other.
+  std::vector<NodeId> nodes;
+  std::vector<double> jump, flux;
+
+  [[nodiscard]] PerfectNodes nodes_of(const PerfectTerm& term) const {
+    const auto part = [&](const auto& of_all) { return std::span(of_all).subspan(term.first, term.size); };
+    return {part(nodes), part(jump), part(flux), term.owners};
+  }
+};
+
+// One for each contact of a perfect joint. Throws InputError for one between two materials whose conductivities depend on
+// temperature.
 template <int dim>
-std::vector<PerfectTerm<dim>> perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                            const contact::ContactSet<dim>& contacts, const JointOptions& joint);
+PerfectTerms perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                           const contact::ContactSet<dim>& contacts, const JointOptions& joint);
 
 }  // namespace scree::thermal

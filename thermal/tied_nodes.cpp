@@ -18,7 +18,7 @@ using Matching = boost::container::static_vector<std::pair<NodeId, NodeId>, 4>;
 // Which of the target's corners lies on each of the owner's; none unless all do.
 template <int dim>
 Matching matching_corners(const mesh::BlockMesh<dim>& mesh, const contact::Contact<dim>& contact) {
-  const auto corners = corners_of(contact.on_owner), others = corners_of(contact.on_target);
+  const auto corners = nodes_of(contact.on_owner), others = nodes_of(contact.on_target);
   Matching matching;
   if (corners.size() != others.size()) return matching;
   for (const NodeId corner : corners) {
@@ -59,11 +59,11 @@ class Ties {
 
 template <int dim>
 std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts,
-                                                const JointConduction<dim>& joints, const HeatModel& model) {
-  if (joints.perfect.empty()) return std::nullopt;
+                                                const JointConduction& joints, const HeatModel& model) {
+  if (joints.perfect.terms.empty()) return std::nullopt;
   Ties ties(mesh.nodes.size(), model);
   bool any = false;
-  for (const PerfectTerm<dim>& term : joints.perfect) {
+  for (const PerfectTerm& term : joints.perfect.terms) {
     const Matching matching = matching_corners(mesh, contacts.contacts[term.contact]);
     if (!std::all_of(matching.begin(), matching.end(),
                      [&](const auto& pair) { return ties.may_be_one(pair.first, pair.second); })) {
@@ -84,8 +84,8 @@ std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh
 }
 
 template std::optional<Table<NodeId, NodeId>> tied_nodes<2>(const mesh::BlockMesh<2>&, const contact::ContactSet<2>&,
-                                                            const JointConduction<2>&, const HeatModel&);
+                                                            const JointConduction&, const HeatModel&);
 template std::optional<Table<NodeId, NodeId>> tied_nodes<3>(const mesh::BlockMesh<3>&, const contact::ContactSet<3>&,
-                                                            const JointConduction<3>&, const HeatModel&);
+                                                            const JointConduction&, const HeatModel&);
 
 }  // namespace scree::thermal

@@ -19,24 +19,22 @@ namespace scree::thermal {
 // element's edge, and only if no two conditions hold them. What holds one of them holds all.
 template <int dim>
 std::optional<Table<NodeId, NodeId>> tied_nodes(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts,
-                                                const JointConduction<dim>& joints, const HeatModel& model);
+                                                const JointConduction& joints, const HeatModel& model);
 
-// The corners of a contact's face, with the fourth of a quadrilateral.
+// The corners of a contact's face.
 template <int dim>
-boost::container::static_vector<NodeId, 4> corners_of(const contact::Stencil<dim>& face) {
-  boost::container::static_vector<NodeId, 4> corners(face.nodes.begin(), face.nodes.end());
-  if constexpr (dim == 3) {
-    if (face.fourth.valid()) corners.push_back(face.fourth);
-  }
-  return corners;
+boost::container::static_vector<NodeId, 4> nodes_of(const contact::Stencil<dim>& face) {
+  boost::container::static_vector<NodeId, 4> nodes;
+  for_each_weight(face, [&](NodeId node, double) { nodes.push_back(node); });
+  return nodes;
 }
 
 // Whether the two faces of the contact have the same rows: it adds nothing to K.
 template <int dim>
 bool is_tied(const contact::Contact<dim>& contact, const NodeMap& rows) {
   if (rows.is_identity()) return false;
-  const auto corners = corners_of(contact.on_owner), others = corners_of(contact.on_target);
-  return corners.size() == others.size() && std::all_of(corners.begin(), corners.end(), [&](NodeId node) {
+  const auto nodes = nodes_of(contact.on_owner), others = nodes_of(contact.on_target);
+  return nodes.size() == others.size() && std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) {
            return std::any_of(others.begin(), others.end(), [&](NodeId other) { return rows[other] == rows[node]; });
          });
 }

@@ -11,17 +11,11 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/nearest.h"
+#include "engine/base/trimmed.h"
 
 namespace scree {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets begin with it
 

@@ -15,6 +15,7 @@
 
 #include "engine/base/check.h"
 #include "engine/base/plain_locale.h"
+#include "engine/base/trimmed.h"
 
 namespace scree {
 
@@ -86,12 +87,6 @@ static_assert(std::is_sorted(words_of_short_table.begin(), words_of_short_table.
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 // UDUNITS also reads products with numbers ("m 3" is 3 m), origins ("K @ 3") and dates: surely mistakes here. Digits may

@@ -36,7 +36,7 @@ SimplexList<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
 }
 
 template <int dim>
-Table<ElementId, CellId> element_cells(const BlockMesh<dim>& mesh) {
+Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh) {
   Table<ElementId, CellId> cells(mesh.elements.size());
   for (const Block& block : mesh.blocks) {
     auto element = block.elements.begin();
@@ -81,7 +81,7 @@ Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
 
 #define SCREE_INSTANTIATE(dim)                                                        \
   template SimplexList<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \
-  template Table<ElementId, CellId> element_cells<dim>(const BlockMesh<dim>&);        \
+  template Table<ElementId, CellId> cells_of_elements<dim>(const BlockMesh<dim>&);    \
   template Table<FaceId, WeightedFace<dim>> weighted_faces<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -28,7 +28,7 @@ void for_each_simplex(const BlockMesh<dim>& mesh, const Block& block, const Visi
 
 // The cell that each element is a part of; not valid for elements of blocks without cells.
 template <int dim>
-Table<ElementId, CellId> element_cells(const BlockMesh<dim>& mesh);
+Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh);
 
 // The face of the cell that these corners and one more make up, the corners in turn and that one last; nothing if they are a
 // face by themselves.

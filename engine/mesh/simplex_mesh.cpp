@@ -117,6 +117,15 @@ double signed_volume(const std::array<Point<dim>, dim + 1>& corners) {
 }
 
 template <int dim>
+double flat_volume(const std::array<Point<dim>, dim + 1>& corners) {
+  double longest = 0;  // squared
+  for (std::size_t i = 0; i <= dim; ++i) {
+    for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, (corners[i] - corners[j]).squaredNorm());
+  }
+  return 1e-10 * (dim == 2 ? longest : longest * std::sqrt(longest));
+}
+
+template <int dim>
 double worst_quality(const SimplexMesh<dim>& mesh) {
   double worst = 1;
   for (const auto& element : mesh.elements) {
@@ -190,6 +199,8 @@ SimplexMesh<dim> whole_of(const RawMesh& raw) {
 
 template double signed_volume<2>(const std::array<Point<2>, 3>&);
 template double signed_volume<3>(const std::array<Point<3>, 4>&);
+template double flat_volume<2>(const std::array<Point<2>, 3>&);
+template double flat_volume<3>(const std::array<Point<3>, 4>&);
 template double worst_quality<2>(const SimplexMesh<2>&);
 template double worst_quality<3>(const SimplexMesh<3>&);
 template std::vector<OuterFace<2>> outer_faces<2>(const SimplexMesh<2>&);

@@ -44,6 +44,10 @@ const std::vector<RawCell<dim + 1>>& element_cells(const RawMesh& raw);
 template <int dim>
 double signed_volume(const std::array<Point<dim>, dim + 1>& corners);
 
+// A simplex of no more than this is flat: 1e-10 of the cube (2-D: the square) of its longest edge.
+template <int dim>
+double flat_volume(const std::array<Point<dim>, dim + 1>& corners);
+
 // The lowest mean ratio of an element: 1 if all are regular, 0 if one is flat (Liu & Joe 1994).
 template <int dim>
 double worst_quality(const SimplexMesh<dim>& mesh);

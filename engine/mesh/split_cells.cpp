@@ -1,7 +1,6 @@
 #include "engine/mesh/split_cells.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,9 +10,6 @@
 namespace scree::mesh {
 
 namespace {
-
-// Of the cube (2-D: square) of its longest edge; a simplex below it is flat.
-constexpr double flat = 1e-10;
 
 template <int dim>
 std::vector<RawCell<dim + 1>>& simplices_of(RawMesh& raw) {
@@ -32,14 +28,9 @@ std::array<Point<dim>, dim + 1> corners_of(const RawMesh& raw, const Nodes& node
   return corners;
 }
 
-// Whether the volume is more than `flat` of the cube (2-D: the square) of the longest edge.
 template <int dim>
 bool is_full(const std::array<Point<dim>, dim + 1>& corners) {
-  double longest = 0;  // squared
-  for (std::size_t i = 0; i <= dim; ++i) {
-    for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, (corners[i] - corners[j]).squaredNorm());
-  }
-  return signed_volume<dim>(corners) > flat * (dim == 2 ? longest : longest * std::sqrt(longest));
+  return signed_volume<dim>(corners) > flat_volume<dim>(corners);
 }
 
 // Whether all simplices of all its splits are.

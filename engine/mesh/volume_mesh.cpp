@@ -14,9 +14,6 @@ namespace scree::mesh {
 
 namespace {
 
-// Of the cube (2-D: square) of its longest edge; an element below it is flat.
-constexpr double flat = 1e-10;
-
 template <int dim>
 constexpr const char* simplex_name = dim == 2 ? "triangle" : "tetrahedron";
 
@@ -36,12 +33,8 @@ template <int dim>
 void check_elements(const BodySpec& body, const RawMesh& raw) {
   for (const auto& cell : element_cells<dim>(raw)) {
     const auto corners = corners_of<dim>(raw, cell);
-    double longest = 0;
-    for (const Point<dim>& a : corners) {
-      for (const Point<dim>& b : corners) longest = std::max(longest, (a - b).norm());
-    }
     const double volume = signed_volume<dim>(corners);
-    if (std::abs(volume) <= flat * std::pow(longest, dim)) {
+    if (std::abs(volume) <= flat_volume<dim>(corners)) {
       throw file_error(body, fmt::format("{} {} is flat", element_name<dim>(raw), cell.number), "Mesh the shape again");
     }
     if (volume < 0) {

@@ -1,7 +1,6 @@
 #include "engine/output/cell_reading.h"
 
 #include <algorithm>
-#include <span>
 
 #include <Eigen/LU>
 
@@ -40,14 +39,17 @@ void add(NodeId node, double weight, Stencil& stencil) {
 template <int dim>
 Stencil cell_stencil(const mesh::BlockMesh<dim>& mesh, CellId cell, const Point<dim>& point) {
   const auto simplices = mesh::both_splits(mesh, cell);
-  const std::span all(simplices.data(), simplices.size());
   Stencil stencil;
-  for (const auto split : {all.first(all.size() / 2), all.last(all.size() / 2)}) {
-    const auto inside = [&](const mesh::Simplex<dim>& simplex) { return weights_at<dim>(mesh, simplex, point).minCoeff(); };
-    const auto nearest = std::max_element(split.begin(), split.end(),
-                                          [&](const auto& one, const auto& other) { return inside(one) < inside(other); });
-    const Weights<dim> weights = weights_at<dim>(mesh, *nearest, point);
-    for (int i = 0; i <= dim; ++i) add((*nearest)[i], 0.5 * weights[i], stencil);
+  for (std::size_t first = 0; first < simplices.size(); first += simplices.size() / 2) {
+    std::size_t nearest = first;
+    Weights<dim> weights = weights_at<dim>(mesh, simplices[first], point);
+    for (std::size_t i = first + 1; i < first + simplices.size() / 2; ++i) {
+      const Weights<dim> others = weights_at<dim>(mesh, simplices[i], point);
+      if (others.minCoeff() <= weights.minCoeff()) continue;
+      nearest = i;
+      weights = others;
+    }
+    for (int i = 0; i <= dim; ++i) add(simplices[nearest][i], 0.5 * weights[i], stencil);
   }
   return stencil;
 }

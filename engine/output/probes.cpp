@@ -134,7 +134,7 @@ Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const Table<ElementId, Cell
 template <int dim>
 std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs, Reading reading) {
   const auto blocks = mesh::element_blocks(mesh);
-  const auto cells = mesh::element_cells(mesh);
+  const auto cells = mesh::cells_of_elements(mesh);
   std::vector<Probe<dim>> probes;
   std::vector<Problem> problems;
   for (const ProbeSpec& spec : specs) {

@@ -30,8 +30,8 @@ double value_of(NodeId node) {
 
 double value_of(const Stencil<3>& stencil) {
   double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) sum += stencil.weights[i] * value_of(stencil.nodes[i]);
-  return stencil.fourth.valid() ? sum + fourth_weight(stencil) * value_of(stencil.fourth) : sum;
+  for_each_weight(stencil, [&](NodeId node, double weight) { sum += weight * value_of(node); });
+  return sum;
 }
 
 // Of the triangle at a point of its plane, if it holds the point.
@@ -64,7 +64,7 @@ double brute_force(const mesh::BlockMesh<3>& mesh, const mesh::Cell& cell, const
 
 TEST(BothDiagonals, GiveTheMeanOfWhatEachGivesAtThePoint) {
   const auto mesh = boxes();
-  const auto cells = mesh::element_cells(mesh);
+  const auto cells = mesh::cells_of_elements(mesh);
   std::size_t quadrilaterals = 0;
   for (const Model model : {Model::overlap, Model::semi_spring}) {
     const auto set = find_contacts<3>(mesh, {0.3, 0.01, model, {}});
@@ -86,8 +86,7 @@ std::map<NodeId, double> shares_of(const ContactSet<3>& set, double part) {
   std::map<NodeId, double> shares;
   for (const Contact<3>& contact : set.contacts) {
     for (const Stencil<3>& stencil : {contact.on_owner, contact.on_target}) {
-      for (std::size_t i = 0; i < 3; ++i) shares[stencil.nodes[i]] += part * contact.area * stencil.weights[i];
-      if (stencil.fourth.valid()) shares[stencil.fourth] += part * contact.area * fourth_weight(stencil);
+      for_each_weight(stencil, [&](NodeId node, double weight) { shares[node] += part * contact.area * weight; });
     }
   }
   return shares;

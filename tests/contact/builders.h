@@ -100,11 +100,4 @@ inline BlockOf<2> ring() {
   return triangles;
 }
 
-template <int dim>
-Point<dim> value(const mesh::BlockMesh<dim>& mesh, const Stencil<dim>& stencil) {
-  Point<dim> sum = Point<dim>::Zero();
-  for (int i = 0; i < dim; ++i) sum += stencil.weights[i] * mesh.nodes[stencil.nodes[i]];
-  return sum;
-}
-
 }  // namespace scree::contact::testing

@@ -96,8 +96,8 @@ TEST(FindContacts, OfAVertexOnAFaceAreTheThreeSemiSpringsAroundIt) {
     EXPECT_NEAR(contact.area, std::sqrt(3.0) / 12, 1e-14);
     const auto literal = literal_owner(contact);
     EXPECT_EQ(std::count(literal.weights.begin(), literal.weights.end(), 1.0), 1);
-    EXPECT_NEAR(value(mesh, literal).norm(), 0, 1e-14) << "the corner it stands on";
-    EXPECT_NEAR(value(mesh, contact.on_target).z(), 0, 1e-14);
+    EXPECT_NEAR(point_of(mesh, literal).norm(), 0, 1e-14) << "the corner it stands on";
+    EXPECT_NEAR(point_of(mesh, contact.on_target).z(), 0, 1e-14);
   }
   EXPECT_TRUE(find_contacts<3>(mesh_of<3>({floor, {on_its_corner(0.011)}}), {}).contacts.empty());
 }
@@ -110,7 +110,7 @@ mesh::BlockMesh<3> crossed_edges(double gap) {
 }
 
 Point<3> centre_of(const mesh::BlockMesh<3>& mesh, const Stencil<3>& stencil) {
-  return value(mesh, Stencil<3>{stencil.nodes, {}, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+  return point_of(mesh, Stencil<3>{stencil.nodes, {}, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
 }
 
 TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {
@@ -120,17 +120,17 @@ TEST(FindContacts, OfCrossedEdgesAreSemiEdgesOfTheTwoFacesAtEach) {
   for (const auto& contact : set.contacts) {
     EXPECT_EQ(contact.kind, Kind::edge_edge);
     EXPECT_NE(contact.owner, contact.target);
-    EXPECT_NEAR((value(mesh, contact.on_owner) - point_of(mesh, contact)).norm(), 0, 1e-14);
-    EXPECT_NEAR(std::abs((point_of(mesh, contact) - value(mesh, contact.on_target)).z()), contact.gap, 1e-14);
+    EXPECT_NEAR((point_of(mesh, contact.on_owner) - point_of(mesh, contact)).norm(), 0, 1e-14);
+    EXPECT_NEAR(std::abs((point_of(mesh, contact) - point_of(mesh, contact.on_target)).z()), contact.gap, 1e-14);
     EXPECT_EQ(std::count(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1);
     EXPECT_NEAR(std::accumulate(contact.on_target.weights.begin(), contact.on_target.weights.end(), 0.0), 1, 1e-15);
     const auto literal = literal_owner(contact);
     EXPECT_EQ(std::count(literal.weights.begin(), literal.weights.end(), 0.0), 1);
     EXPECT_NEAR(std::accumulate(literal.weights.begin(), literal.weights.end(), 0.0), 1, 1e-15);
     // The semi-edge is moved inwards by 5 % of the way to its face's centre, which is across the edge.
-    EXPECT_NEAR((0.95 * value(mesh, literal) + 0.05 * centre_of(mesh, literal) - value(mesh, contact.on_owner)).norm(), 0,
+    EXPECT_NEAR((0.95 * point_of(mesh, literal) + 0.05 * centre_of(mesh, literal) - point_of(mesh, contact.on_owner)).norm(), 0,
                 1e-14);
-    EXPECT_NEAR(value(mesh, literal).head<2>().norm(), 0.1, 0.01) << "beside the crossing, on the edge itself";
+    EXPECT_NEAR(point_of(mesh, literal).head<2>().norm(), 0.1, 0.01) << "beside the crossing, on the edge itself";
   }
   EXPECT_TRUE(find_contacts<3>(crossed_edges(0.011), {}).contacts.empty());
 }

@@ -24,7 +24,7 @@ template <int dim>
 std::vector<Plain<dim>> plain(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options) {
   std::vector<Plain<dim>> all;
   for (const auto& contact : find_contacts<dim>(mesh, options).contacts) {
-    all.push_back({point_of(mesh, contact), value(mesh, contact.on_target), contact.area, contact.gap});
+    all.push_back({point_of(mesh, contact), point_of(mesh, contact.on_target), contact.area, contact.gap});
   }
   return all;
 }

@@ -1,8 +1,12 @@
 // Joints between blocks of quadrilaterals, wedges and hexahedra, whose faces are seen through both diagonals.
+#include <random>
+#include <set>
+
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
 #include "contact/find_contacts.h"
+#include "engine/mesh/cells.h"
 #include "tests/mesh/cell_boxes.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/steady.h"
@@ -140,6 +144,80 @@ TEST(JointsOfCells, ArePositiveSemidefiniteIfTheyArePerfect) {
                                           {.centre = {0.1, 0.5, 0}, .mesh_size = 0.34, .kind = mesh::CellKind::quadrilateral}}),
                perfect),
       "quadrilateral");
+}
+
+// Two cubes whose common corners lie anywhere, as long as every simplex has volume: the faces are twisted, some so much that
+// they are not convex from any side.
+std::optional<mesh::BlockMesh<3>> twisted(std::mt19937& random) {
+  auto mesh = two_boxes(mesh::CellKind::hexahedron, 1.0, mesh::CellKind::hexahedron, 1.0);
+  std::normal_distribution<double> normal(0, 0.35);
+  for (const NodeId node : mesh.nodes.ids()) {
+    if (mesh.nodes[node].z() != 0) continue;
+    const Point<3> shift = Point<3>::NullaryExpr([&](Eigen::Index) { return normal(random); });
+    for (const NodeId other : mesh.nodes.ids()) {
+      if (other.value() > node.value() && mesh.nodes[other] == mesh.nodes[node]) mesh.nodes[other] += shift;
+    }
+    mesh.nodes[node] += shift;
+  }
+  for (const ElementId element : mesh.elements.ids()) {
+    if (mesh::element_volume(mesh, element) < 1e-3) return std::nullopt;
+  }
+  for (const CellId cell : mesh.cells.ids()) {
+    for (const auto& simplex : mesh::both_splits(mesh, cell)) {
+      if (mesh::simplex_volume(mesh, simplex) < 1e-3) return std::nullopt;
+    }
+  }
+  return mesh;
+}
+
+std::set<NodeId> nodes_of_joint(const mesh::BlockMesh<3>& mesh) {
+  const auto& lower = mesh.cells[CellId{0}].nodes;
+  const auto& upper = mesh.cells[CellId{1}].nodes;
+  std::set<NodeId> nodes(lower.begin() + 4, lower.end());
+  nodes.insert(upper.begin(), upper.begin() + 4);
+  return nodes;
+}
+
+// By the diagonals of the joint's face.
+std::array<double, 2> areas_of_joint(const mesh::BlockMesh<3>& mesh) {
+  const auto at = [&](std::size_t i) { return mesh.nodes[mesh.cells[CellId{0}].nodes[4 + i]]; };
+  const auto triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return 0.5 * (at(b) - at(a)).cross(at(c) - at(a)).norm();
+  };
+  return {triangle(0, 1, 2) + triangle(0, 2, 3), triangle(1, 2, 3) + triangle(1, 3, 0)};
+}
+
+TEST(JointsOfCells, HaveTheAreaOfATwistedFaceAndStaySoundThere) {
+  std::mt19937 random(7);
+  int convex = 0, dented = 0;
+  for (int trial = 0; trial < 20000 && dented < 3; ++trial) {
+    const auto mesh = twisted(random);
+    if (!mesh) continue;
+    const JointOptions joint = joint_of(JointConductance{20}, contact::Model::semi_spring);
+    const std::set<NodeId> on_joint = nodes_of_joint(*mesh);
+    double area = 0;
+    bool both = true;
+    const auto contacts = contact::find_contacts(*mesh, contact_search(joint, mesh->bodies, {}));
+    for (const auto& contact : contacts.contacts) {
+      EXPECT_GT(contact.area, 0);
+      const auto& face = contact.on_owner.nodes;
+      const bool of_joint = std::all_of(face.begin(), face.end(), [&](NodeId node) { return on_joint.contains(node); });
+      if (contact.kind != contact::Kind::point_face || !of_joint) continue;  // other faces may lean over it
+      area += contact.area / 2;
+      both = both && contact.on_owner.fourth.valid();
+    }
+    const auto [one, other] = areas_of_joint(*mesh);
+    if (both) {
+      EXPECT_NEAR(area, 0.5 * (one + other), 1e-12);
+    } else {
+      EXPECT_LT(std::min(std::abs(area - one), std::abs(area - other)), 1e-12);
+    }
+    ++(both ? convex : dented);
+    if (both && convex > 5) continue;
+    expect_kernel_of_constants(model_of(*mesh, perfect), std::to_string(trial));
+  }
+  EXPECT_EQ(dented, 3);
+  EXPECT_GT(convex, 5);
 }
 
 // A quarter turn: the diagonals by which the search sees the two sides cross.

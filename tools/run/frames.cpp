@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/mesh/cells.h"
+
 namespace scree::run {
 
 namespace {
@@ -50,20 +52,21 @@ output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const 
   return frame;
 }
 
+// Of what series show: cells in their order, or elements, of each block.
 template <int dim>
 std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std::vector<double>& of_element) {
   if (mesh.cells.empty()) return of_element;
+  const auto cells = mesh::cells_of_elements(mesh);
   std::vector<double> largest;
-  for (const mesh::Block& block : mesh.blocks) {
-    auto element = block.elements.begin();
-    for (const CellId cell : block.cells) {
-      double value = 0;
-      for (std::size_t i = 0; i < mesh::split_count(mesh.cells[cell].kind); ++i, ++element) {
-        value = std::max(value, of_element[(*element).index()]);
-      }
+  CellId last;
+  for (const ElementId element : mesh.elements.ids()) {
+    const double value = of_element[element.index()];
+    if (cells[element].valid() && cells[element] == last) {
+      largest.back() = std::max(largest.back(), value);
+    } else {
       largest.push_back(value);
     }
-    for (; element != block.elements.end(); ++element) largest.push_back(of_element[(*element).index()]);
+    last = cells[element];
   }
   return largest;
 }

@@ -24,7 +24,7 @@ struct HeatedPile {
   bool settled = false;       // by a fall, and not where a scene placed them
   contact::ContactSet<dim> contacts;
   std::optional<contact::OneSided> one_sided;  // of these, if there are any
-  thermal::JointConduction<dim> joints;
+  thermal::JointConduction joints;
   std::vector<std::string> unused_joints;  // keys of rules that hold for none of the contacts
   std::vector<output::Probe<dim>> probes;
   std::optional<Eigen::VectorXd> start;  // temperatures of an earlier run, if the scene starts from them [K]
