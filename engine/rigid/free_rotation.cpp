@@ -15,6 +15,7 @@ namespace {
 
 constexpr double most_turned = 0.2;     // in one round of turns [rad]
 constexpr int most_rounds = 64;         // of a step
+constexpr double needle = 10;           // the largest moment over the least, and more
 constexpr double little_turned = 1e-3;  // in a step, of which the tangent is as good as the turns [rad]
 
 Eigen::Vector3d principal_moments(const btRigidBody& body) {
@@ -79,6 +80,11 @@ FreeRotation free_rotation(const btRigidBody& body, double time_step) {
   const Eigen::Vector3d mean = slow ? Eigen::Vector3d(spin + 0.5 * time_step * momentum.cross(spin).cwiseQuotient(moments))
                                     : mean_of_turns(moments, spin, time_step);
   return {axes * mean, axes * momentum};
+}
+
+bool is_needle(const btRigidBody& body) {
+  const Eigen::Vector3d moments = principal_moments(body);
+  return moments.maxCoeff() > needle * moments.minCoeff();
 }
 
 Eigen::Vector3d momentum_of(const btRigidBody& body, const Eigen::Vector3d& angular) {

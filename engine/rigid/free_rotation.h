@@ -20,6 +20,11 @@ struct FreeRotation {
 // kept to rounding, and the energy swings about its value.
 FreeRotation free_rotation(const btRigidBody& body, double time_step);
 
+// Where contacts change the momentum within a step, the free turn of before and the change are added to each other, which is no
+// turn of the new momentum: of a needle that spins about its length, tilted by a degree too far, a little of the momentum that
+// lies along it is much energy. Of such a body the turn is worked out again from the new momentum.
+bool is_needle(const btRigidBody& body);
+
 // The angular momentum that a change of the angular velocity adds, where the body is now [kg m2/s].
 Eigen::Vector3d momentum_of(const btRigidBody& body, const Eigen::Vector3d& angular);
 

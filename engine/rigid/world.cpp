@@ -224,9 +224,14 @@ void World::step(double time_step, int iterations) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       if (asleep(free_[i])) continue;
       btRigidBody& body = *free_bodies_[i];
+      // The momentum is what stays where the body's axes turn.
+      const btVector3 momentum = to_bullet(bullet_->solver.momentum(i));
+      if (is_needle(body)) {
+        body.setAngularVelocity(body.getInvInertiaTensorWorld() * momentum);
+        body.setAngularVelocity(to_bullet(free_rotation(body, time_step).mean));
+      }
       body.proceedToTransform(moved(body.getWorldTransform(), body.getLinearVelocity(), body.getAngularVelocity(), time_step));
-      // The momentum is what stays where the body's axes have turned.
-      body.setAngularVelocity(body.getInvInertiaTensorWorld() * to_bullet(bullet_->solver.momentum(i)));
+      body.setAngularVelocity(body.getInvInertiaTensorWorld() * momentum);
     }
   });
 }
