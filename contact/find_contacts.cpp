@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "contact/both_diagonals.h"
+#include "contact/hidden_overlaps.h"
 #include "contact/near_faces.h"
 #include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
@@ -176,6 +177,7 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
       set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
     }
   }
+  drop_hidden_overlaps(surface, set.contacts);
   if constexpr (dim == 3) see_both_diagonals(mesh, set.contacts);
   return set;
 }

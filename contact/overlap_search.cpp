@@ -7,6 +7,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include "contact/both_diagonals.h"
+#include "contact/hidden_overlaps.h"
 #include "contact/near_faces.h"
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
@@ -216,11 +217,10 @@ Items of_overlaps(const Surface<dim>& surface, double tolerance, const Faces& ov
   });
 }
 
-template <int dim, class Faces>
-Contacts<dim> contacts_of(const Surface<dim>& surface, const Faces& overlaps, const ContactOptions& options) {
-  const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
+template <int dim, class Faces, class Wanted>
+Contacts<dim> contacts_of(const Surface<dim>& surface, double tolerance, const Faces& overlaps, const Wanted& wanted) {
   return of_overlaps<Contacts<dim>>(
-      surface, options.tolerance, overlaps, wanted,
+      surface, tolerance, overlaps, wanted,
       [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
         for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
       });
@@ -230,10 +230,12 @@ Contacts<dim> contacts_of(const Surface<dim>& surface, const Faces& overlaps, co
 
 template <int dim>
 Contacts<dim> overlap_contacts(const Surface<dim>& surface, const ContactOptions& options) {
+  const auto wanted = [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::overlap; };
   if constexpr (dim == 3) {
-    if (!surface.mesh.cells.empty()) return contacts_of(surface, HalvedFaces(surface, options.tolerance), options);
+    const bool cells = !surface.mesh.cells.empty();
+    if (cells) return contacts_of(surface, options.tolerance, HalvedFaces(surface, options.tolerance), wanted);
   }
-  return contacts_of(surface, WholeFaces<dim>(surface, options.tolerance), options);
+  return contacts_of(surface, options.tolerance, WholeFaces<dim>(surface, options.tolerance), wanted);
 }
 
 template <int dim>
@@ -253,16 +255,10 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
   }
   if (!any_semi_springs) return areas;
   const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
-  using Share = std::pair<std::pair<BodyId, BodyId>, double>;
-  const auto shares = of_overlaps<std::vector<Share>>(
-      surface, options.tolerance, WholeFaces<dim>(surface, options.tolerance),
-      [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; },
-      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Share>& into) {
-        for (const auto& point : points) {
-          into.push_back({bodies_of(surface.faces[first].block, surface.faces[second].block), point.area});
-        }
-      });
-  for (const auto& [bodies, area] : shares) areas[bodies] += area;
+  Contacts<dim> overlaps = contacts_of(surface, options.tolerance, WholeFaces<dim>(surface, options.tolerance),
+                                       [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; });
+  drop_hidden_overlaps(surface, overlaps);
+  for (const Contact<dim>& contact : overlaps) areas[bodies_of(contact.owner, contact.target)] += contact.area;
   return areas;
 }
 

@@ -259,6 +259,28 @@ void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& optio
   applier.finish();
 }
 
+template <int dim>
+DrivenNodes driven_nodes(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options) {
+  DrivenNodes driven;
+  if (!any_perfect(options.joint)) return driven;
+  HeatModel conditions;
+  conditions.places = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const NodeId node : mesh.nodes.ids()) conditions.places.col(node.value()).template head<dim>() = mesh.nodes[node];
+  apply_boundaries(mesh, options, {}, conditions);
+  driven = DrivenNodes(mesh.nodes.size(), 0);
+  for (const NodeId node : conditions.fixed_nodes) driven[node] = 1;
+  for (const Load& load : conditions.loads) {
+    if (load.in_volume) continue;
+    for (const NodeId node : load.on.nodes) driven[node] = 1;
+  }
+  for (const Exchange& exchange : conditions.exchanges) {
+    for (const NodeId node : exchange.on.nodes) driven[node] = 1;
+  }
+  return driven;
+}
+
+template DrivenNodes driven_nodes<2>(const mesh::BlockMesh<2>&, const HeatOptions&);
+template DrivenNodes driven_nodes<3>(const mesh::BlockMesh<3>&, const HeatOptions&);
 template void apply_boundaries<2>(const mesh::BlockMesh<2>&, const HeatOptions&, const MovingBodies&, HeatModel&);
 template void apply_boundaries<3>(const mesh::BlockMesh<3>&, const HeatOptions&, const MovingBodies&, HeatModel&);
 

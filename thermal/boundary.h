@@ -15,4 +15,9 @@ template <int dim>
 void apply_boundaries(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options, const MovingBodies& moving,
                       HeatModel& model);
 
+// Nodes that a condition holds, or heats through a face: what perfect joints ask for. Empty if no joint is perfect; throws as
+// apply_boundaries does.
+template <int dim>
+DrivenNodes driven_nodes(const mesh::BlockMesh<dim>& mesh, const HeatOptions& options);
+
 }  // namespace scree::thermal

@@ -179,7 +179,8 @@ template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const HeatOptions& options) {
   check_bodies(mesh, materials, options);
-  return make_heat_model(mesh, materials, contacts, joint_conduction(mesh, materials, contacts, options.joint), options);
+  const JointConduction joints = joint_conduction(mesh, materials, contacts, options.joint, driven_nodes(mesh, options));
+  return make_heat_model(mesh, materials, contacts, joints, options);
 }
 
 template <int dim>

@@ -197,9 +197,10 @@ void fetch_ahead(const contact::Contacts<dim>& contacts, std::size_t contact, co
 
 template <int dim>
 JointConduction joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                 const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
+                                 const contact::ContactSet<dim>& contacts, const JointOptions& joint,
+                                 const DrivenNodes& driven) {
   JointConduction conduction;
-  conduction.perfect = perfect_terms(mesh, materials, contacts, joint);
+  conduction.perfect = perfect_terms(mesh, materials, contacts, joint, driven);
   const auto& terms = conduction.perfect.terms;
   const bool any_of_phi =
       std::any_of(terms.begin(), terms.end(), [](const PerfectTerm& term) { return term.of_phi.has_value(); });
@@ -258,12 +259,12 @@ std::vector<double> contact_flows(const contact::ContactSet<dim>& contacts, cons
   return flows;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                             \
-  template JointConduction joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,          \
-                                                 const contact::ContactSet<dim>&, const JointOptions&);                    \
-  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction&, JointForm, Field, const NodeMap&, \
-                                Eigen::SparseMatrix<double>&);                                                             \
-  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction&,                 \
+#define SCREE_INSTANTIATE(dim)                                                                                              \
+  template JointConduction joint_conduction<dim>(const mesh::BlockMesh<dim>&, const Table<MaterialId, Material>&,           \
+                                                 const contact::ContactSet<dim>&, const JointOptions&, const DrivenNodes&); \
+  template void add_joints<dim>(const contact::ContactSet<dim>&, const JointConduction&, JointForm, Field, const NodeMap&,  \
+                                Eigen::SparseMatrix<double>&);                                                              \
+  template std::vector<double> contact_flows<dim>(const contact::ContactSet<dim>&, const JointConduction&,                  \
                                                   const Eigen::VectorXd&, JointForm);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

@@ -19,7 +19,8 @@ struct JointConduction {
 
 template <int dim>
 JointConduction joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                                 const contact::ContactSet<dim>& contacts, const JointOptions& joint);
+                                 const contact::ContactSet<dim>& contacts, const JointOptions& joint,
+                                 const DrivenNodes& driven = {});
 
 // What the temperatures of a matrix are: T [K], or Kirchhoff's Phi where the conductivity depends on T [W/m].
 enum class Field { temperature, phi };

@@ -37,6 +37,12 @@ std::string name_of(const JointLaw& law) {
   return names.at(law.index());
 }
 
+bool any_perfect(const JointOptions& joint) {
+  const auto perfect = [](const JointLaw& law) { return std::holds_alternative<PerfectJoint>(law); };
+  return perfect(joint.law) ||
+         std::any_of(joint.rules.begin(), joint.rules.end(), [&](const JointRule& rule) { return perfect(rule.law); });
+}
+
 const JointRule* rule_between(const JointOptions& joint, const Table<BodyId, mesh::Body>& bodies, BodyId a, BodyId b) {
   const auto rule = std::find_if(joint.rules.rbegin(), joint.rules.rend(),
                                  [&](const JointRule& candidate) { return speaks_of(candidate, bodies, a, b); });

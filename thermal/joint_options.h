@@ -48,6 +48,8 @@ struct JointOptions {
 // "stiffness_factor", "conductance", "perfect" or "insulating".
 std::string name_of(const JointLaw& law);
 
+bool any_perfect(const JointOptions& joint);
+
 // The rule that holds between two bodies; nothing: the options' own law.
 const JointRule* rule_between(const JointOptions& joint, const Table<BodyId, mesh::Body>& bodies, BodyId a, BodyId b);
 const JointLaw& law_between(const JointOptions& joint, const Table<BodyId, mesh::Body>& bodies, BodyId a, BodyId b);

@@ -20,8 +20,8 @@ template <int dim>
 class PerfectJoints {
  public:
   PerfectJoints(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                const contact::ContactSet<dim>& contacts, const JointOptions& joint)
-      : mesh_(mesh), materials_(materials), contacts_(contacts.contacts) {
+                const contact::ContactSet<dim>& contacts, const JointOptions& joint, const DrivenNodes& driven)
+      : mesh_(mesh), materials_(materials), contacts_(contacts.contacts), driven_(driven) {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const BodyId owner = mesh.blocks[contacts_[c].owner].body, target = mesh.blocks[contacts_[c].target].body;
       if (std::holds_alternative<PerfectJoint>(law_between(joint, mesh.bodies, owner, target))) perfect_.push_back(c);
@@ -115,7 +115,17 @@ class PerfectJoints {
     if (owner_varies && target_varies && material(contact.owner) != material(contact.target)) refuse(contact);
     if (owner_varies && !target_varies) return {0, 1, 2 * c2};
     if (target_varies && !owner_varies) return {1, 0, 2 * c1};
+    const bool owner_driven = is_driven(contact.on_owner), target_driven = is_driven(contact.on_target);
+    if (owner_driven && !target_driven) return {0, 1, 2 * c2, owner_varies};
+    if (target_driven && !owner_driven) return {1, 0, 2 * c1, owner_varies};
     return {c2 / (c1 + c2), c1 / (c1 + c2), 2 * c1 * c2 / (c1 + c2), owner_varies};
+  }
+
+  [[nodiscard]] bool is_driven(const contact::Stencil<dim>& side) const {
+    if (driven_.empty()) return false;
+    bool all = true;
+    for_each_weight(side, [&](NodeId node, double weight) { all = all && (weight == 0 || driven_[node] != 0); });
+    return all;
   }
 
   [[nodiscard]] MaterialId material(BlockId block) const { return mesh_.bodies[mesh_.blocks[block].body].material; }
@@ -180,6 +190,7 @@ class PerfectJoints {
   const mesh::BlockMesh<dim>& mesh_;
   const Table<MaterialId, Material>& materials_;
   const contact::Contacts<dim>& contacts_;
+  const DrivenNodes& driven_;
   std::vector<std::size_t> perfect_;
   Table<ElementId, double> bounds_;  // of the elements of blocks without cells
   Table<ElementId, CellId> cells_;   // empty if there are no cells
@@ -191,13 +202,13 @@ class PerfectJoints {
 
 template <int dim>
 PerfectTerms perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                           const contact::ContactSet<dim>& contacts, const JointOptions& joint) {
-  return PerfectJoints<dim>(mesh, materials, contacts, joint).terms();
+                           const contact::ContactSet<dim>& contacts, const JointOptions& joint, const DrivenNodes& driven) {
+  return PerfectJoints<dim>(mesh, materials, contacts, joint, driven).terms();
 }
 
 template PerfectTerms perfect_terms<2>(const mesh::BlockMesh<2>&, const Table<MaterialId, Material>&,
-                                       const contact::ContactSet<2>&, const JointOptions&);
+                                       const contact::ContactSet<2>&, const JointOptions&, const DrivenNodes&);
 template PerfectTerms perfect_terms<3>(const mesh::BlockMesh<3>&, const Table<MaterialId, Material>&,
-                                       const contact::ContactSet<3>&, const JointOptions&);
+                                       const contact::ContactSet<3>&, const JointOptions&, const DrivenNodes&);
 
 }  // namespace scree::thermal

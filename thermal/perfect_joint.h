@@ -14,6 +14,11 @@
 // are those that need the least penalty (Annavarapu, Hautefeuille and Dolbow, Comput. Methods Appl. Mech. Eng. 225-228, 2012);
 // they stay good when the two sides differ a thousandfold.
 //
+// Where a condition holds the nodes of one side, or heats its face, the normal flux is not continuous: what is given to or
+// taken from the joint itself comes on top. The other side's flux then counts alone, w = 1 and gamma = 2 c of that side, and
+// the joint is exact again for linear fields. With the mean flux the side that is driven by g would part from the other by g/(2
+// c) of its own c, which is much where it conducts badly.
+//
 // Where a block is made of cells, its conduction is that of two splits with half the weight each (engine/mesh/cells.h), and q
 // is the mean of the two simplices behind the face. The square of a mean is at most the mean of the squares, so the bounds add
 // up to the block's energy as they do above, with c the larger of the two. A face that is seen through one diagonal has one
@@ -21,8 +26,8 @@
 //
 // Where k depends on temperature, both sides of one material: all of this in Kirchhoff's Phi, the integral of k over T, in
 // which the flux is linear. One side constant: its flux alone, w = 1 and gamma = 2 c, as if the other conducted without end;
-// heat then flows as the constant side says, and a linear field in either passes. Two materials whose k depends on temperature
-// have neither, and are refused.
+// heat then flows as the constant side says, also if that one is driven, and a linear field in either passes. Two materials
+// whose k depends on temperature have neither, and are refused.
 #pragma once
 
 #include <cstdint>
@@ -76,10 +81,13 @@ struct PerfectTerms {
   }
 };
 
+// Of each node whether a condition holds it or heats it through a face; empty: of none.
+using DrivenNodes = Table<NodeId, std::uint8_t>;
+
 // One for each contact of a perfect joint. Throws InputError for one between two materials whose conductivities depend on
 // temperature.
 template <int dim>
 PerfectTerms perfect_terms(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
-                           const contact::ContactSet<dim>& contacts, const JointOptions& joint);
+                           const contact::ContactSet<dim>& contacts, const JointOptions& joint, const DrivenNodes& driven);
 
 }  // namespace scree::thermal

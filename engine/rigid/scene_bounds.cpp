@@ -1,6 +1,7 @@
 #include "engine/rigid/scene_bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -16,19 +17,31 @@ bool is_fixed(const mesh::BlockMesh<3>& mesh, BlockId block) {
   return mesh.bodies[mesh.blocks[block].body].fixed;
 }
 
+constexpr double beside = 1e-6;    // of a piece's size, by which a vertical may miss it and counts still: blocks lie flush
+constexpr double vertical = 1e-6;  // slope of a face that no vertical enters or leaves by
+
 // Height above `from` (negative: below) at which the vertical through it leaves the piece upwards; nothing if it misses.
 std::optional<double> upper_hit(const mesh::ConvexPiece& piece, const Eigen::Vector3d& from, const Eigen::Vector3d& up) {
-  double enter = -infinity;
+  Aabb<3> box;
+  for (const auto& vertex : piece.vertices) box.extend(vertex);
+  const double slack = beside * box.diagonal().norm();
+  double enter = -infinity;  // the piece with a skin of that much
   double leave = infinity;
+  double upper = infinity;  // without
   for (const auto& face : piece.faces) {
     const double height = face.normal.dot(from - piece.vertices[face.corners[0]]);
     const double slope = face.normal.dot(up);
-    if (slope > 0) leave = std::min(leave, -height / slope);
-    if (slope < 0) enter = std::max(enter, -height / slope);
-    if (slope == 0 && height > 0) return std::nullopt;
+    if (std::abs(slope) <= vertical) {
+      if (height > slack) return std::nullopt;
+    } else if (slope > 0) {
+      leave = std::min(leave, (slack - height) / slope);
+      upper = std::min(upper, -height / slope);
+    } else {
+      enter = std::max(enter, (slack - height) / slope);
+    }
   }
   if (enter > leave) return std::nullopt;
-  return leave;
+  return upper;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "contact/overlap.h"
 
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -212,6 +213,44 @@ TEST(Overlap, AreasPerPairOfBodiesAreTrueOnesWhateverTheModel) {
     ASSERT_EQ(areas.size(), 1);
     EXPECT_NEAR(areas.at({BodyId{0}, BodyId{0}}), 1, 1e-12);
   }
+}
+
+// A film of two thousandths of the cubes' edge between them, thinner than what the tolerance reaches over.
+TEST(Overlap, DoesNotReachThroughAFilmThatLiesBetween) {
+  for (const double off : {0.0, 0.0005}) {  // off the film
+    const auto mesh = mesh_of<3>(
+        {box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(0, 0, 1), at(1, 1, 0.002)), box<3>(at(0, 0, 1.002 + off), at(1, 1, 1))});
+    std::map<std::pair<BlockId, BlockId>, double> areas;
+    for (const auto& contact : find_contacts<3>(mesh, by_overlap).contacts) {
+      areas[std::minmax(contact.owner, contact.target)] += contact.area;
+    }
+    EXPECT_EQ(areas.size(), 2);
+    EXPECT_NEAR((areas[{BlockId{0}, BlockId{1}}]), 1, 1e-12);
+    EXPECT_NEAR((areas[{BlockId{1}, BlockId{2}}]), 1, 1e-12);
+  }
+}
+
+// A film that covers a half of the face hides that half.
+TEST(Overlap, OfWhatAFilmLeavesFreeIsFound) {
+  const auto mesh = mesh_of<3>(
+      {box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(0, 0, 1), at(0.5, 1, 0.002)), box<3>(at(0, 0, 1.002), at(1, 1, 1))});
+  double past = 0;
+  for (const auto& contact : find_contacts<3>(mesh, by_overlap).contacts) {
+    if (contact.owner == BlockId{0} && contact.target == BlockId{2}) past += contact.area;
+  }
+  EXPECT_NEAR(past, 0.5, 0.1) << "by the quadrature points that are free";
+}
+
+// Two triangular blocks that fill a thin plate, on a floor: the slanted face between them is within 10 degrees of the floor's.
+TEST(Overlap, OfAFloorWithAThinPlateInPiecesIsThePlatesArea) {
+  const std::vector<Simplex<2>> left{{Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 0.05)}};
+  const std::vector<Simplex<2>> right{{Point<2>(1, 0), Point<2>(1, 0.05), Point<2>(0, 0.05)}};
+  const auto mesh = mesh_of<2>({left, right, box<2>(Point<2>(0, -1), Point<2>(1, 1))});
+  double floor = 0;
+  for (const auto& contact : find_contacts<2>(mesh, by_overlap).contacts) {
+    floor += contact.target == BlockId{2} || contact.owner == BlockId{2} ? contact.area : 0;
+  }
+  EXPECT_NEAR(floor, 1, 1e-3);
 }
 
 }  // namespace

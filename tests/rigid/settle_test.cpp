@@ -9,6 +9,7 @@
 
 #include "engine/base/check.h"
 #include "engine/packing/penetration.h"
+#include "engine/rigid/scene_bounds.h"
 #include "tests/rigid/blocks.h"
 
 namespace scree::rigid {
@@ -377,6 +378,17 @@ TEST(Settle, WrongOptionsAndMissingDensityAreRefused) {
   auto light = material(0.6);
   light[MaterialId{0}].density.reset();
   EXPECT_THROW(settle(heap(), light, {}), InputError);
+}
+
+// Its highest corners stand above the pedestal's very edge, by which rounding must not decide; a wall elsewhere is higher.
+TEST(Settle, TheTopOfACubeFlushWithItsPedestalIsTheCubesHeight) {
+  for (const double x : {0.0, 0.1, 0.3, 0.7, 1.1}) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {0.1, 0.1, 0.1}, {x, 0.7, -0.05}, true);
+    add_box(mesh, {0.1, 0.1, 0.15}, {x + 0.5, 0.7, -0.025}, true);
+    add_box(mesh, {0.1, 0.1, 0.1}, {x + 1e-9, 0.7, 0.05}, false);
+    EXPECT_NEAR(pile_top(mesh, {0, 0, -9.81}, {}), 0.1, 1e-12) << x;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "contact/find_contacts.h"
 #include "tests/thermal/builders.h"
 #include "tests/verification/steady.h"
+#include "thermal/boundary.h"
 #include "thermal/joint_conduction.h"
 
 namespace scree::thermal {
@@ -192,6 +193,78 @@ TYPED_TEST(Patch, FlowsOfPerfectJointsAreWhatTheyAddToTheBalance) {
     double sum = 0;
     for (const NodeId node : mesh.blocks[block].nodes) sum += lost[node.value()];
     EXPECT_NEAR(sum, by_block[block.index()], 1e-8);
+  }
+}
+
+// Two boxes beside each other that do not match, of unlike conductivities; the far end of the second is held at 300 K.
+template <int dim>
+struct DrivenJoint {
+  mesh::BlockMesh<dim> mesh;
+  Table<MaterialId, Material> materials = test::rock_only();
+  HeatOptions options;
+
+  explicit DrivenJoint(double conductivity) {
+    std::vector<test::Slab<dim>> boxes(2);
+    boxes[0].cells.fill(2);
+    boxes[1].cells.fill(3);
+    boxes[1].low[0] = 1;
+    boxes[1].material = MaterialId{1};
+    mesh = test::slab_mesh<dim>(boxes);
+    materials.push_back(test::rock());
+    materials[MaterialId{0}].conductivity = conductivity;
+    options = test::options_for(mesh, 300);
+    options.joint = joint_of(PerfectJoint{});
+    options.boundaries.push_back(test::hold(BodyId{1}, 2, 300, "end"));
+  }
+
+  // In the first box 400 K everywhere, in the second a straight line from it, and 400 W through the joint.
+  void expect_the_flow_of_the_second_alone(const test::Held& held, const std::map<NodeId, double>& load) {
+    const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+    const HeatModel model = make_heat_model(mesh, materials, contacts, options);
+    const Eigen::VectorXd temperature = test::steady(model, held, load);
+    for (const NodeId node : mesh.nodes.ids()) {
+      const double expected = model.blocks[node] == BlockId{0} ? 400 : 400 - 100 * (mesh.nodes[node][0] - 1);
+      EXPECT_NEAR(temperature[node.value()], expected, 1e-9);
+    }
+    const JointConduction joints = joint_conduction(mesh, materials, contacts, options.joint, driven_nodes(mesh, options));
+    double flow = 0;
+    for (const double part : contact_flows(contacts, joints, temperature, JointForm::consistent)) flow += part;
+    EXPECT_NEAR(flow, 400, 1e-8);
+  }
+
+  [[nodiscard]] test::Held end() const {
+    test::Held held;
+    for (const NodeId node : mesh.nodes.ids()) {
+      if (mesh.nodes[node][0] > 2 - 1e-9) held[node] = 300;
+    }
+    return held;
+  }
+};
+
+TYPED_TEST(Patch, PerfectJointsAreExactWhereOneSideIsHeld) {
+  for (const double conductivity : {0.04, 4.0, 400.0}) {
+    DrivenJoint<TypeParam::value> driven(conductivity);
+    driven.options.boundaries.push_back(test::hold(BodyId{0}, 1, 400, "joint"));
+    test::Held held = driven.end();
+    for (const NodeId node : driven.mesh.blocks[BlockId{0}].nodes) {
+      if (driven.mesh.nodes[node][0] > 1 - 1e-9) held[node] = 400;
+    }
+    driven.expect_the_flow_of_the_second_alone(held, {});
+  }
+}
+
+TYPED_TEST(Patch, PerfectJointsAreExactWhereOneSideIsHeatedFromOutside) {
+  for (const double conductivity : {0.04, 4.0, 400.0}) {
+    DrivenJoint<TypeParam::value> driven(conductivity);
+    Boundary heated = test::hold(BodyId{0}, 1, 0, "joint");
+    heated.condition = HeatFlux{400};
+    driven.options.boundaries.push_back(heated);
+    const HeatModel model = make_heat_model(driven.mesh, driven.materials, {}, driven.options);
+    std::map<NodeId, double> load;
+    for (std::size_t i = 0; i < model.loads[0].on.nodes.size(); ++i) {
+      load[model.loads[0].on.nodes[i]] += 400 * model.loads[0].on.shares[i];
+    }
+    driven.expect_the_flow_of_the_second_alone(driven.end(), load);
   }
 }
 

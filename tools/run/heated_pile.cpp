@@ -4,6 +4,7 @@
 
 #include "contact/find_contacts.h"
 #include "engine/output/stored_field.h"
+#include "thermal/boundary.h"
 #include "tools/run/keys.h"
 
 namespace scree::run {
@@ -69,7 +70,8 @@ void join(const Scene& scene, HeatedPile<dim>& pile) {
   auto unused = thermal::unused_rules(joint, pile.mesh, pile.contacts);
   for (const Problem& problem : unused) pile.unused_joints.push_back(problem.key);
   if (!unused.empty() && !pile.settled) throw InputError(std::move(unused));
-  pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint);
+  pile.joints = thermal::joint_conduction(pile.mesh, scene.materials, pile.contacts, joint,
+                                          thermal::driven_nodes(pile.mesh, *scene.heat));
 }
 
 template <int dim>

@@ -1,0 +1,19 @@
+// Overlaps of faces between which another block lies: heat goes through that block, not past it.
+//
+// Faces are found to overlap across a gap (the tolerance), and a plate may be thinner than it; or the tip of an element that is
+// a block of its own, between the floor it lies on and the slanted face of its neighbour. Semi-springs take the closest of all
+// and need none of this.
+#pragma once
+
+#include "contact/contact_set.h"
+#include "contact/surface.h"
+
+namespace scree::contact {
+
+// Takes those overlaps out whose point, seen from either of the two faces along its normal, lies behind a face of a third block
+// that touches the same face. The surface is that in which the contacts were found. Gaps of less than a ten-thousandth of the
+// contact's length hide nothing, and cost nothing.
+template <int dim>
+void drop_hidden_overlaps(const Surface<dim>& surface, Contacts<dim>& contacts);
+
+}  // namespace scree::contact
