@@ -1,9 +1,12 @@
 #include "contact/hidden_overlaps.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
+#include "engine/base/collected.h"
+#include "engine/base/grouped.h"
 
 namespace scree::contact {
 
@@ -21,20 +24,26 @@ bool may_be_hidden(const Contact<dim>& contact) {
 template <int dim>
 class Partners {
  public:
-  Partners(const Surface<dim>& surface, const Contacts<dim>& contacts) : surface_(surface), asked_(surface.faces.size(), 0) {
-    for (const Contact<dim>& contact : contacts) {
-      if (!may_be_hidden(contact)) continue;
-      asked_[owner_of(contact)] = 1;
-      asked_[target_of(contact)] = 1;
-    }
-    for (const Contact<dim>& contact : contacts) {
-      if (contact.kind == Kind::edge_edge) continue;
-      const FaceId owner = owner_of(contact), target = target_of(contact);
-      if (asked_[owner] != 0) pairs_.emplace_back(owner, target);
-      if (asked_[target] != 0) pairs_.emplace_back(target, owner);
-    }
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  Partners(const Surface<dim>& surface, const Contacts<dim>& contacts)
+      : surface_(surface), starts_(block_starts(surface.mesh, surface.faces)) {
+    const Table<FaceId, std::uint8_t> asked = faces_to_ask(contacts);
+    const auto pairs = collected<std::vector<Pair>>(contacts.size(), [&](Chunk chunk, std::vector<Pair>& found) {
+      Pair last;
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        if (contacts[i].kind == Kind::edge_edge) continue;
+        const Pair pair{owner_of(contacts[i]), target_of(contacts[i])};
+        if (pair == last) continue;  // another point of the same two
+        last = pair;
+        if (asked[pair.first] != 0) found.push_back(pair);
+        if (asked[pair.second] != 0) found.emplace_back(pair.second, pair.first);
+      }
+    });
+    partners_ = grouped<FaceId>(chunk_count(pairs.size()), surface.faces.size(), [&](std::size_t part, const auto& visit) {
+      const Chunk chunk = chunk_of(pairs.size(), part);
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        visit(static_cast<std::uint32_t>(pairs[i].first.value()), pairs[i].second);
+      }
+    });
   }
 
   [[nodiscard]] bool hide(const Contact<dim>& contact) const {
@@ -45,6 +54,19 @@ class Partners {
  private:
   using Pair = std::pair<FaceId, FaceId>;
 
+  [[nodiscard]] Table<FaceId, std::uint8_t> faces_to_ask(const Contacts<dim>& contacts) const {
+    Table<FaceId, std::uint8_t> asked(surface_.faces.size(), 0);
+    const auto ask = [&](FaceId face) { std::atomic_ref(asked[face]).store(1, std::memory_order_relaxed); };
+    for_chunks(contacts.size(), [&](Chunk chunk) {
+      for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        if (!may_be_hidden(contacts[i])) continue;
+        ask(owner_of(contacts[i]));
+        ask(target_of(contacts[i]));
+      }
+    });
+    return asked;
+  }
+
   [[nodiscard]] FaceId owner_of(const Contact<dim>& contact) const {
     return face_of(contact.owner, contact.owner_element, contact.on_owner.nodes);
   }
@@ -54,21 +76,20 @@ class Partners {
 
   // Faces come in the order of their blocks and elements.
   [[nodiscard]] FaceId face_of(BlockId block, ElementId element, const std::array<NodeId, dim>& nodes) const {
-    const auto& faces = surface_.faces.raw();
-    auto face = std::partition_point(faces.begin(), faces.end(), [&](const mesh::Face<dim>& one) {
-      return one.block < block || (one.block == block && one.element < element);
-    });
-    while (face != faces.end() && face->nodes != nodes) ++face;
-    SCREE_EXPECT(face != faces.end());
-    return FaceId{static_cast<std::size_t>(face - faces.begin())};
+    const auto at = [&](std::size_t place) { return surface_.faces.raw().begin() + static_cast<std::ptrdiff_t>(place); };
+    const auto end = at(starts_[block.index() + 1]);
+    auto face = std::partition_point(at(starts_[block.index()]), end,
+                                     [&](const mesh::Face<dim>& one) { return one.element < element; });
+    while (face != end && face->nodes != nodes) ++face;
+    SCREE_EXPECT(face != end);
+    return FaceId{static_cast<std::size_t>(face - at(0))};
   }
 
   // Does a face of a block but `beyond` that touches `face` stand before the other side of the contact?
   [[nodiscard]] bool stands_before(FaceId face, const Point<dim>& point, BlockId beyond, const Contact<dim>& contact) const {
     const double near = contact.gap - least_gap * contact.length;
-    auto pair = std::lower_bound(pairs_.begin(), pairs_.end(), Pair{face, FaceId{0}});
-    for (; pair != pairs_.end() && pair->first == face; ++pair) {
-      const FaceId other = pair->second;
+    for (std::size_t i = partners_.begin[face.index()]; i < partners_.begin[face.index() + 1]; ++i) {
+      const FaceId other = partners_.values[i];
       if (surface_.faces[other].block == beyond) continue;
       const Point<dim>& along = surface_.normals[face];
       const Point<dim>& normal = surface_.normals[other];
@@ -85,8 +106,8 @@ class Partners {
   }
 
   const Surface<dim>& surface_;
-  Table<FaceId, std::uint8_t> asked_;
-  std::vector<Pair> pairs_;
+  std::vector<std::size_t> starts_;  // of each block's faces
+  Grouped<FaceId, std::size_t> partners_;
 };
 
 }  // namespace
@@ -101,6 +122,7 @@ void drop_hidden_overlaps(const Surface<dim>& surface, Contacts<dim>& contacts) 
       hidden[i] = may_be_hidden(contacts[i]) && partners.hide(contacts[i]) ? 1 : 0;
     }
   });
+  if (std::none_of(hidden.begin(), hidden.end(), [](std::uint8_t one) { return one != 0; })) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (hidden[i] == 0) contacts[kept++] = contacts[i];
