@@ -5,6 +5,7 @@
 
 #include "contact/overlap.h"
 #include "engine/base/chunks.h"
+#include "engine/mesh/cells.h"
 
 namespace scree::contact {
 
@@ -36,6 +37,7 @@ bool answered(const Contacts<dim>& all, const Contact<dim>& contact) {
 template <int dim>
 std::optional<OneSided> one_sided(const mesh::BlockMesh<dim>& mesh, const ContactSet<dim>& contacts, double tolerance) {
   const auto& all = contacts.contacts;
+  const mesh::CharacteristicLength<dim> lengths(mesh);
   std::vector<OneSided> parts(chunk_count(all.size()));
   std::vector<double> areas(parts.size(), 0);
   for_chunks(all.size(), [&](Chunk chunk) {
@@ -45,7 +47,7 @@ std::optional<OneSided> one_sided(const mesh::BlockMesh<dim>& mesh, const Contac
       if (contact.kind != Kind::point_face) continue;
       areas[chunk.number] += contact.area;
       if (contact.gap <= 0) continue;
-      const double wanted = contact.gap / mesh::element_mean_edge(mesh, contact.target_element);
+      const double wanted = contact.gap / lengths.of(contact.target_element);
       if (wanted <= (1 + rounding) * tolerance || !opposed(mesh, contact) || answered<dim>(all, contact)) continue;
       ++part.contacts;
       part.area += contact.area;

@@ -9,6 +9,7 @@
 
 #include "engine/base/chunks.h"
 #include "engine/base/parts.h"
+#include "engine/mesh/cells.h"
 
 namespace scree::contact {
 
@@ -114,11 +115,11 @@ void add_edges(const std::vector<std::size_t>& starts, const std::vector<Chunk>&
 }
 
 template <int dim>
-void measure_face(FaceId f, Surface<dim>& surface) {
+void measure_face(FaceId f, const mesh::CharacteristicLength<dim>& lengths, Surface<dim>& surface) {
   const Point<dim> area = mesh::area_vector<dim>(surface.mesh, surface.faces[f].nodes);
   surface.areas[f] = area.norm();
   surface.normals[f] = area.normalized();
-  surface.lengths[f] = mesh::element_mean_edge(surface.mesh, surface.faces[f].element);
+  surface.lengths[f] = lengths.of(surface.faces[f].element);
 }
 
 template <int dim>
@@ -153,8 +154,9 @@ Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Fa
   surface.normals = FoundTable<FaceId, Point<dim>>(count);
   surface.areas = FoundTable<FaceId, double>(count);
   surface.lengths = FoundTable<FaceId, double>(count);
+  const mesh::CharacteristicLength<dim> lengths(mesh);
   for_chunks(count, [&](Chunk chunk) {
-    for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, surface);
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) measure_face<dim>(FaceId{f}, lengths, surface);
   });
   return surface;
 }

@@ -21,6 +21,20 @@ void add_cell_block(const BlockMesh<3>& mesh, BlockId block, Table<FaceId, Weigh
   });
 }
 
+// In 3-D every edge is in two faces, in 2-D it is one.
+template <int dim>
+double cell_mean_edge(const BlockMesh<dim>& mesh, const Cell& cell) {
+  double sum = 0;
+  int count = 0;
+  for (const CornerList face : cell_faces(cell.kind)) {
+    const std::size_t edges = dim == 2 ? 1 : face.size();
+    for (std::size_t i = 0; i < edges; ++i, ++count) {
+      sum += (mesh.nodes[cell.nodes[face[(i + 1) % face.size()]]] - mesh.nodes[cell.nodes[face[i]]]).norm();
+    }
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 template <int dim>
@@ -45,6 +59,17 @@ Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh) {
     }
   }
   return cells;
+}
+
+template <int dim>
+CharacteristicLength<dim>::CharacteristicLength(const BlockMesh<dim>& mesh) : mesh_(mesh) {
+  if (!mesh.cells.empty()) cells_ = cells_of_elements(mesh);
+}
+
+template <int dim>
+double CharacteristicLength<dim>::of(ElementId element) const {
+  const bool in_cell = !cells_.empty() && cells_[element].valid();
+  return in_cell ? cell_mean_edge(mesh_, mesh_.cells[cells_[element]]) : element_mean_edge(mesh_, element);
 }
 
 std::optional<std::array<NodeId, 4>> quadrilateral_of(const Cell& cell, const std::array<NodeId, 3>& corners) {
@@ -78,6 +103,9 @@ Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
   for (const WeightedFace<dim>& face : of_cells) faces.push_back(face);
   return faces;
 }
+
+template class CharacteristicLength<2>;
+template class CharacteristicLength<3>;
 
 #define SCREE_INSTANTIATE(dim)                                                        \
   template SimplexList<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \

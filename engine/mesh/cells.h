@@ -30,6 +30,19 @@ void for_each_simplex(const BlockMesh<dim>& mesh, const Block& block, const Visi
 template <int dim>
 Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh);
 
+// The characteristic length of eq. (11): the mean length of the edges of an element, or of the cell that it is a part of, so
+// that it does not depend on how the cell is split [m].
+template <int dim>
+class CharacteristicLength {
+ public:
+  explicit CharacteristicLength(const BlockMesh<dim>& mesh);  // of the caller, who keeps it
+  [[nodiscard]] double of(ElementId element) const;
+
+ private:
+  const BlockMesh<dim>& mesh_;
+  Table<ElementId, CellId> cells_;  // empty if there are no cells
+};
+
 // The face of the cell that these corners and one more make up, the corners in turn and that one last; nothing if they are a
 // face by themselves.
 std::optional<std::array<NodeId, 4>> quadrilateral_of(const Cell& cell, const std::array<NodeId, 3>& corners);

@@ -146,6 +146,29 @@ TEST(JointsOfCells, ArePositiveSemidefiniteIfTheyArePerfect) {
       "quadrilateral");
 }
 
+// The conductance of eq. (11) goes by the edges of the cell, however it is split: two cubes of 1 m, each side's semi-springs
+// beta k/dL times the face.
+TEST(JointsOfCells, OfAStiffnessFactorGoByTheEdgesOfTheCell) {
+  for (const mesh::CellKind kind : {mesh::CellKind::hexahedron, mesh::CellKind::wedge}) {
+    const auto mesh = two_boxes(kind, 1.0, kind, 1.0);
+    const JointOptions joint = joint_of(StiffnessFactor{10}, contact::Model::semi_spring);
+    const auto contacts = contact::find_contacts(mesh, contact_search(joint, mesh.bodies, {}));
+    double sum = 0;
+    for (const double g : joint_conduction(mesh, test::rock_only(), contacts, joint).conductances) sum += g;
+    if (kind == mesh::CellKind::hexahedron) {
+      EXPECT_NEAR(sum, 2 * 10 * 4, 1e-10);
+    } else {
+      double expected = 0;
+      for (const contact::Contact<3>& contact : contacts.contacts) {
+        const double edges = mesh::CharacteristicLength<3>(mesh).of(contact.owner_element);
+        expected += 10 * 4 * contact.area / edges;
+        EXPECT_LT(edges, 1.2);
+      }
+      EXPECT_NEAR(sum, expected, 1e-10);
+    }
+  }
+}
+
 // Two cubes whose common corners lie anywhere, as long as every simplex has volume: the faces are twisted, some so much that
 // they are not convex from any side.
 std::optional<mesh::BlockMesh<3>> twisted(std::mt19937& random) {

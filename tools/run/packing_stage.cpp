@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/mesh/cells.h"
 #include "engine/mesh/made_from.h"
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
@@ -140,8 +141,8 @@ void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
   const double clearance = scene.settle->options.clearance;
   if (clearance == 0) return;
   double shortest = std::numeric_limits<double>::infinity();
-  for (const auto& face : mesh::boundary_faces(blocks))
-    shortest = std::min(shortest, mesh::element_mean_edge(blocks, face.element));
+  const mesh::CharacteristicLength<3> lengths(blocks);
+  for (const auto& face : mesh::boundary_faces(blocks)) shortest = std::min(shortest, lengths.of(face.element));
   const double most = (scene.contact ? 0.5 * scene.contact->tolerance : small) * shortest;
   if (clearance <= most) return;
   Problem problem;
