@@ -88,10 +88,10 @@ class Partners {
   // Does a face of a block but `beyond` that touches `face` stand before the other side of the contact?
   [[nodiscard]] bool stands_before(FaceId face, const Point<dim>& point, BlockId beyond, const Contact<dim>& contact) const {
     const double near = contact.gap - least_gap * contact.length;
+    const Point<dim>& along = surface_.normals[face];
     for (std::size_t i = partners_.begin[face.index()]; i < partners_.begin[face.index() + 1]; ++i) {
       const FaceId other = partners_.values[i];
       if (surface_.faces[other].block == beyond) continue;
-      const Point<dim>& along = surface_.normals[face];
       const Point<dim>& normal = surface_.normals[other];
       const Corners<dim> corners = corners_of(surface_, other);
       const double slope = along.dot(normal);

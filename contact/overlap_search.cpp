@@ -200,30 +200,20 @@ class HalvedFaces {
   Table<ElementId, CellId> cells_;
 };
 
-// What `make` gives for every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of
-// faces, first < second: make(first, second, points, into) appends to `into`. On all threads.
-template <class Items, int dim, class Faces, class Wanted, class Make>
-Items of_overlaps(const Surface<dim>& surface, double tolerance, const Faces& overlaps, const Wanted& wanted,
-                  const Make& make) {
+// The contacts of every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of faces,
+// first < second. On all threads.
+template <int dim, class Faces, class Wanted>
+Contacts<dim> contacts_of(const Surface<dim>& surface, double tolerance, const Faces& overlaps, const Wanted& wanted) {
   const OrderedPairs pairs = near_pairs(surface, tolerance, wanted);
-  return collected<Items>(surface.faces.size(), [&](Chunk chunk, auto& items) {
+  return collected<Contacts<dim>>(surface.faces.size(), [&](Chunk chunk, std::vector<Contact<dim>>& contacts) {
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
       for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
         overlaps.find(FaceId{f}, pairs.values[i], points);
-        if (!points.empty()) make(FaceId{f}, pairs.values[i], points, items);
+        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, FaceId{f}, pairs.values[i], point));
       }
     }
   });
-}
-
-template <int dim, class Faces, class Wanted>
-Contacts<dim> contacts_of(const Surface<dim>& surface, double tolerance, const Faces& overlaps, const Wanted& wanted) {
-  return of_overlaps<Contacts<dim>>(
-      surface, tolerance, overlaps, wanted,
-      [&](FaceId first, FaceId second, const std::vector<OverlapPoint<dim>>& points, std::vector<Contact<dim>>& contacts) {
-        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, first, second, point));
-      });
 }
 
 }  // namespace
