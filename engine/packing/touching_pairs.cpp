@@ -29,7 +29,7 @@ Feature feature_towards(const PlacedPiece& piece, const Vector3d& outwards, doub
   Feature feature;
   for (std::size_t f = 0; f < piece.normals.size(); ++f) {
     const double aligned = piece.normals[f].dot(outwards);
-    if (aligned < best) continue;
+    if (aligned < best || piece.piece->faces[f].inner) continue;
     best = aligned;
     feature.clear();
     for (const std::int32_t corner : piece.piece->faces[f].corners) feature.push_back(piece.vertices[corner]);
@@ -104,10 +104,12 @@ std::vector<TouchingPair> touching_pairs(const PieceSet& pieces, const TouchOpti
   for (const auto& [a, b] : near_pairs(pieces.parts, options.range)) {
     const Separation between = separation(a->placed, b->placed, options.range);
     if (between.distance > options.range) continue;
-    const std::pair<BlockId, BlockId> pair = std::minmax(a->block, b->block);
-    const auto known = found.find(pair);
-    if (known != found.end() && known->second.gap <= between.distance) continue;
-    found[pair] = {pair.first, pair.second, meeting_of(*a, *b, between.normal, options), between.distance};
+    const auto [first, second] = std::minmax(a->block, b->block);
+    const TouchingPair touching{first, second, meeting_of(*a, *b, between.normal, options), between.distance};
+    const auto [known, is_new] = found.try_emplace({first, second}, touching);
+    if (is_new) continue;
+    known->second.meeting = std::min(known->second.meeting, touching.meeting);
+    known->second.gap = std::min(known->second.gap, touching.gap);
   }
   std::vector<TouchingPair> result;
   result.reserve(found.size());

@@ -8,6 +8,7 @@
 
 namespace scree::packing {
 
+// Those first that leave the blocks the least freedom.
 enum class Meeting : std::uint8_t { face_face, face_edge, face_point, edge_edge, edge_point, point_point };
 
 struct TouchingPair {
@@ -21,8 +22,8 @@ struct TouchOptions {
   double lean = 0;   // two features lie on each other if they lean from each other by no more than this [rad]
 };
 
-// Every pair of blocks that touch, of which one at least is free, ordered; of blocks in several convex pieces by the two pieces
-// that are nearest or deepest in each other.
+// Every pair of blocks that touch, of which one at least is free, ordered. Blocks in several convex pieces meet as those of
+// their pieces do that leave them the least freedom, for others touch by the seams between them only.
 //
 // A pair touches across the plane that parts it best (separation.h). Each side takes part with the face that leans from that
 // plane by less than `lean`, or else with such an edge, or else with its foremost vertex. Faces and edges that lie in the same

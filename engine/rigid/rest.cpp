@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/rigid/bullet_pose.h"
+#include "engine/rigid/homes.h"
 
 namespace scree::rigid {
 
@@ -52,26 +52,36 @@ void RestWatch::begin(const World& world, double time) {
   largest_ = {};
   blocks_ = world.free_blocks();
   poses_.clear();
-  for (const btRigidBody* body : world.free_bodies()) poses_.push_back(pose_of(body->getWorldTransform()));
+  for (const btRigidBody* body : world.free_bodies()) poses_.push_back(body->getWorldTransform());
+  way_ = 0;
+}
+
+bool RestWatch::quiet() const {
+  return largest_.rms_speed < rest_speed_ && largest_.unbalanced < rest_unbalanced_;
+}
+
+void RestWatch::look_for_ways(const World& world) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const double way = way_moved(poses_[i], world.free_bodies()[i]->getWorldTransform(), world.radius(blocks_[i]));
+    if (way <= way_) continue;
+    way_ = way;
+    furthest_ = blocks_[i];
+  }
 }
 
 bool RestWatch::observe(const World& world, const Motion& motion, double time) {
   largest_.rms_speed = std::max(largest_.rms_speed, motion.rms_speed);
   largest_.unbalanced = std::max(largest_.unbalanced, motion.unbalanced);
-  if (!is_over(time - since_, rest_window_)) return false;
+  const bool over = is_over(time - since_, rest_window_);
   const bool same_blocks = blocks_ == world.free_blocks();
+  // What is back where it was at the end, as a stone that bounces may be, has moved. Of no interest while others move.
+  if (same_blocks && (over || quiet())) look_for_ways(world);
+  if (!over) return false;
   window_ = time - since_;
-  displacement_ = 0;
-  for (std::size_t i = 0; same_blocks && i < blocks_.size(); ++i) {
-    const Pose now = pose_of(world.free_bodies()[i]->getWorldTransform());
-    const double turned = 2 * (now.rotation * poses_[i].rotation.conjugate()).vec().norm();
-    displacement_ =
-        std::max(displacement_, (now.translation - poses_[i].translation).norm() + turned * world.radius(blocks_[i]));
-  }
+  displacement_ = way_;
   last_ = largest_;
   lost_some_ = !same_blocks;
-  const bool quiet = last_.rms_speed < rest_speed_ && last_.unbalanced < rest_unbalanced_;
-  const bool rest = quiet && same_blocks && displacement_ < allowed_displacement_;
+  const bool rest = quiet() && same_blocks && displacement_ < allowed_displacement_;
   begin(world, time);
   return rest;
 }
@@ -86,9 +96,11 @@ std::string RestWatch::criterion() const {
 
 std::string RestWatch::obstacle() const {
   if (window_ == 0) return "no whole window has passed";
-  return fmt::format(
-      "in the last whole window the speed reached {:.3g} m/s, the unbalanced force {:.3g}, a point of a block moved {:.3g} m{}",
-      last_.rms_speed, last_.unbalanced, displacement_, lost_some_ ? ", and a block left the scene" : "");
+  std::string text = fmt::format("in the last whole window the speed reached {:.3g} m/s, the unbalanced force {:.3g}",
+                                 last_.rms_speed, last_.unbalanced);
+  if (displacement_ > 0) text += fmt::format(", a point of block {} moved {:.3g} m", furthest_.value(), displacement_);
+  if (lost_some_) text += ", a block left the scene";
+  return text;
 }
 
 }  // namespace scree::rigid

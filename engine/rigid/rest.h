@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <LinearMath/btTransform.h>
+
 #include "engine/rigid/damping.h"
 
 namespace scree::rigid {
@@ -24,8 +26,8 @@ struct Motion {
 
 Motion observe_motion(const World& world, const Damping& damping, double time_step);
 
-// Looks at consecutive windows of time: a window is one of rest if the speed and the unbalanced force stayed below their limits
-// in every step of it and no block has moved further than allowed from its beginning to its end.
+// Looks at consecutive windows of time: a window is one of rest if in every step of it the speed and the unbalanced force were
+// below their limits and no block was further than allowed from where it was as the window began.
 class RestWatch {
  public:
   RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time);
@@ -40,14 +42,18 @@ class RestWatch {
 
  private:
   void begin(const World& world, double time);
+  [[nodiscard]] bool quiet() const;  // but for ways
+  void look_for_ways(const World& world);
 
   double rest_speed_, rest_unbalanced_, allowed_displacement_, rest_window_;
   double since_ = 0;
-  Motion largest_;           // of the window so far, each for itself
-  Motion last_;              // of the last whole one
-  bool lost_some_ = false;   // in the last whole one
-  std::vector<Pose> poses_;  // of the free bodies at the beginning of the window
+  Motion largest_;                  // of the window so far, each for itself
+  Motion last_;                     // of the last whole one
+  bool lost_some_ = false;          // in the last whole one
+  std::vector<btTransform> poses_;  // of the free bodies at the beginning of the window
   std::vector<BlockId> blocks_;
+  double way_ = 0;    // of a block in the window so far, the largest [m]
+  BlockId furthest_;  // whose it was in the last window that was looked at
   double window_ = 0;
   double displacement_ = 0;
 };

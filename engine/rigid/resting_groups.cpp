@@ -47,7 +47,9 @@ void RestingGroups::observe(World& world, const Damping& damping, double time) {
       Record& record = records_[block];
       if (world.asleep(block) || record.body == nullptr) continue;  // or let go in this window
       ++record.steps;
-      record.energy = std::max(record.energy, kinetic_energy(*world.free_bodies()[i], world.mass(block)));
+      const btRigidBody& body = *world.free_bodies()[i];
+      record.energy = std::max(record.energy, kinetic_energy(body, world.mass(block)));
+      record.way = std::max(record.way, way_moved(record.from, body.getWorldTransform(), world.radius(block)));
       record.force = std::max(record.force, damping.net_force(world, block));
     }
   });
@@ -66,8 +68,7 @@ bool RestingGroups::at_rest(const World& world, const std::vector<BlockId>& grou
   double energy = 0, force = 0, mass = 0;
   for (const BlockId block : group) {
     const Record& record = records_[block];
-    if (record.steps < steps_) return false;
-    if (way_moved(record.from, record.body->getWorldTransform(), world.radius(block)) > displacement_) return false;
+    if (record.steps < steps_ || record.way > displacement_) return false;
     energy += record.energy;
     force += record.force;
     mass += world.mass(block);

@@ -4,9 +4,9 @@
 //
 // A group is at rest if in a window as long as that of the whole pile (rest.h) the kinetic energy of its blocks, each at its
 // largest, is that of a tenth of the speed at which the pile may be at rest, their mean net force, each at its largest, a tenth
-// of the unbalanced force that it may have, over the mean weight of a block, and no block has moved further than a tenth of
-// what it may. So what is left of motion when a group falls asleep would not keep the pile from rest, and its contacts keep the
-// impulses that bear it: it wakes up in balance.
+// of the unbalanced force that it may have, over the mean weight of a block, and no block was ever further than a tenth of
+// what it may from where it began. So what is left of motion when a group falls asleep would not keep the pile from rest, and
+// its contacts keep the impulses that bear it: it wakes up in balance.
 #pragma once
 
 #include <vector>
@@ -29,6 +29,7 @@ class RestingGroups {
     int steps = 0;      // awake
     double energy = 0;  // kinetic, the largest [J]
     double force = 0;   // net, the largest [N]
+    double way = 0;     // from the beginning, the largest [m]
     const btRigidBody* body = nullptr;
     btTransform from;  // at the beginning
   };

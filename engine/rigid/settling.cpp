@@ -96,6 +96,8 @@ class Settling {
   [[nodiscard]] double time() const { return static_cast<double>(half_steps_) * options_.step / 2; }
   Motion advance(double viscous);
   [[nodiscard]] bool has_slowed(const Motion& motion, double viscous) const;
+  // Blocks that have only begun to move are slow, too: drag takes 1/c to act.
+  [[nodiscard]] bool drag_has_acted(double viscous) const { return time() >= 1 / viscous; }
   [[nodiscard]] double slow_speed(double viscous) const { return slow_under_drag * options_.gravity.norm() / viscous; }
   [[nodiscard]] std::string obstacle(const RestWatch& watch, double viscous) const;
 
@@ -110,15 +112,15 @@ class Settling {
   std::vector<BlockId> lost_;
 };
 
-// Blocks that have only begun to move are slow, too: drag takes 1/c to act.
 bool Settling::has_slowed(const Motion& motion, double viscous) const {
-  return time() >= 1 / viscous && motion.rms_speed < slow_speed(viscous);
+  return drag_has_acted(viscous) && motion.rms_speed < slow_speed(viscous);
 }
 
 // Why a pile that is not at rest is not, in words and numbers.
 std::string Settling::obstacle(const RestWatch& watch, double viscous) const {
   if (world_.hanging() > 0) return fmt::format("{} blocks had not been let go yet", world_.hanging());
   if (viscous == 0) return watch.obstacle();
+  if (!drag_has_acted(viscous)) return fmt::format("the drag was still on, for it takes {:.3g} s to act", 1 / viscous);
   return fmt::format("the drag was still on, for the root mean square speed had not fallen below {:.3g} m/s yet",
                      slow_speed(viscous));
 }

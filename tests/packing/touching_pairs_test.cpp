@@ -65,6 +65,54 @@ TEST(TouchingPairs, CrossedEdgesMeetEdgeToEdgeAndSoDoFacesThatShareARimOnly) {
   EXPECT_EQ(only_pair({Vector3d(0.9995, 0, 1), Eigen::Quaterniond::Identity()}).meeting, Meeting::edge_edge);
 }
 
+// Of twelve tetrahedra: a floor of 4 x 4 x 4 whose top lies at 0.5, turned, and a wall at one end of it.
+void add_l(mesh::BlockMesh<3>& mesh, const Eigen::Quaterniond& floor) {
+  add_box(mesh, {4, 4, 4}, Pose{Vector3d(0, 0, -1.5), floor}, true);
+  add_box(mesh, {1, 4, 6}, Vector3d(2.5, 0, 0), true);
+  const BodyId body = mesh.blocks[BlockId{0}].body;
+  mesh.blocks = {};
+  mesh.blocks.push_back({body, {0, mesh.nodes.size()}, {0, mesh.elements.size()}});
+}
+
+TEST(TouchingPairs, OnABlockOfSeveralPiecesFacesEdgesAndCornersAreToldApartWhereverItsSeamsAre) {
+  const auto on_corner = Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), Vector3d::UnitZ());
+  for (const int quarters : {0, 1, 2, 3}) {
+    for (const auto& [x, y] : {std::pair(-1.3, -1.2), {-0.6, 0.0}, {0.0, 0.0}, {0.0, 0.37}, {0.45, -1.2}}) {
+      const auto floor = turned(quarters * M_PI / 2, Vector3d::UnitY()) * turned(quarters * M_PI / 2, Vector3d::UnitZ());
+      const Vector3d at(x, y, 0.5);
+      const auto meeting_at = [&](double height, const Eigen::Quaterniond& rotation) {
+        mesh::BlockMesh<3> mesh;
+        add_l(mesh, floor);
+        add_box(mesh, cube, Pose{at + height * Vector3d::UnitZ(), rotation}, false);
+        const auto pairs = pairs_of(mesh);
+        EXPECT_EQ(pairs.size(), 1U);
+        return pairs.empty() ? Meeting::point_point : pairs.front().meeting;
+      };
+      EXPECT_EQ(meeting_at(0.5, Eigen::Quaterniond::Identity()), Meeting::face_face) << x << " " << y;
+      const auto on_edge = turned(0.3, Vector3d::UnitZ()) * turned(M_PI / 4, Vector3d::UnitX());
+      EXPECT_EQ(meeting_at(std::sqrt(0.5), on_edge), Meeting::face_edge) << x << " " << y;
+      EXPECT_EQ(meeting_at(std::sqrt(0.75), on_corner), Meeting::face_point) << x << " " << y;
+    }
+  }
+}
+
+// Its lowest corner lies over another piece than the rest of the cube, which only that corner's tip is over.
+TEST(TouchingPairs, ACubeThatHardlyLeansMeetsTheFaceItLiesOnThoughAnotherPieceIsNearer) {
+  for (const int quarters : {0, 1, 2, 3}) {
+    for (const double side : {-1.0, 1.0}) {
+      mesh::BlockMesh<3> mesh;
+      add_l(mesh, turned(quarters * M_PI / 2, Vector3d::UnitZ()));
+      const Vector3d lower = Vector3d(-side, -1, 0).normalized();
+      const Eigen::Quaterniond lean = turned(1e-4, Vector3d::UnitZ().cross(lower));
+      add_box(mesh, cube, Pose{Vector3d(0.5 * side, 0.4997, 1.0001), lean}, false);
+      const auto pairs = pairs_of(mesh);
+      ASSERT_EQ(pairs.size(), 1U);
+      EXPECT_EQ(pairs.front().meeting, Meeting::face_face) << quarters << " " << side;
+      EXPECT_NEAR(pairs.front().gap, 0.0001 - 1e-4 * std::sqrt(0.5), 1e-7);
+    }
+  }
+}
+
 TEST(TouchingPairs, ACubicLatticeHasSixNeighboursInsideAndOnlyFacesThatMeet) {
   mesh::BlockMesh<3> mesh;
   constexpr int n = 4;

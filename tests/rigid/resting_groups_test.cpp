@@ -96,6 +96,19 @@ TEST(RestingGroups, NothingThatFallsOrRisesSleeps) {
   }
 }
 
+// At the end of the window it lies where it lay at the beginning.
+TEST(RestingGroups, AStoneThatBouncedOnWhatRestsKeepsItAwake) {
+  mesh::BlockMesh<3> mesh = floor_only();
+  const BlockId rests = add_box(mesh, {2, 2, 2}, {0, 0, 1}, false);
+  const BlockId stone = add_box(mesh, {0.003, 0.003, 0.003}, {0, 0, 2.0015}, false, {0, 0, 0.48 * 0.25 * testing::g});
+  Fall fall(mesh, 0.6);
+  fall.run(60);
+  EXPECT_NEAR((fall.world.poses()[stone].translation).norm(), 0, 1e-4);
+  EXPECT_FALSE(fall.world.asleep(rests));
+  fall.run(60);
+  EXPECT_TRUE(fall.world.asleep(rests));
+}
+
 TEST(RestingGroups, ASleepingGroupIsPushedAwayLikeOneThatIsAwake) {
   // Nothing rubs or rebounds: the one that comes goes on with the lower of two at half its speed, fast or slow.
   for (const double speed : {1.0, 0.02}) {

@@ -45,11 +45,12 @@ void measure(const std::string& name, const std::function<packing::Packing<3>()>
   std::fflush(stdout);
 }
 
-// Without an end to it when the blocks are at rest.
+// In Bullet's step, not the scene's shorter one, and without an end to it when the blocks are at rest.
 packing::Packing<3> scree_fall(const Scene& scene, const mesh::BlockMesh<3>& blocks, double seconds, int threads,
                                double clearance) {
   use_threads(threads);
   rigid::SettleOptions options = scene.settle->options;
+  options.step = plain_step;
   options.limit = seconds;
   options.rest_speed = 1e-12;
   options.frame_interval = seconds;

@@ -269,9 +269,10 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
   }
   if (report.at_rest || scene.settle->accept_moving) return reasons;
   reasons.push_back(
-      fmt::format("the pile was still moving at {:.3g} s (at rest is: {}). Raise settle.limit, or accept it with "
+      fmt::format("the pile was still moving at {:.3g} s (at rest is: {}). Raise settle.limit, {}or accept it with "
                   "settle.accept_moving",
-                  report.simulated_time, report.criterion));
+                  report.simulated_time, report.criterion,
+                  scene.settle->options.local_damping > 0 ? "" : "stop what swings by settle.local_damping, "));
   return reasons;
 }
 

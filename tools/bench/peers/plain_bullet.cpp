@@ -18,7 +18,7 @@ namespace scree::bench {
 
 namespace {
 
-constexpr double step = 1.0 / 240;
+constexpr double step = plain_step;
 constexpr int iterations = 20;
 constexpr double margin = 1e-4;  // [m]
 constexpr double near = 1e-3;    // [m]

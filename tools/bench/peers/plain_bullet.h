@@ -11,7 +11,9 @@ struct PlainFall {
   packing::Packing<3> packing;
 };
 
-// Lets the convex free blocks fall for `time` seconds in steps of 1/240 s with 20 iterations: double precision, metres, convex
+constexpr double plain_step = 1.0 / 240;  // [s]
+
+// Lets the convex free blocks fall for `time` seconds in those steps with 20 iterations: double precision, metres, convex
 // hulls with a margin of 0.1 mm, and the two things without which nothing of use comes out: lengths that fit the blocks, and
 // friction that starts from the last step. The free fall of the lowest block to the highest fixed point is skipped, as Scree
 // does.

@@ -1,0 +1,44 @@
+// When a pile counts as at rest.
+#include <gtest/gtest.h>
+
+#include "engine/rigid/settle.h"
+#include "tests/rigid/blocks.h"
+
+namespace scree::rigid {
+namespace {
+
+using testing::add_box;
+
+// Thrown up so that a window later it is where it was, at a speed that is lost in the mean beside a block of 2.5 t.
+TEST(Rest, AStoneThatIsBackWhereItWasAfterAWindowHasMoved) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+  add_box(mesh, {1, 1, 1}, {0, 0, 0.5}, false);
+  SettleOptions options;
+  const double speed = testing::g * (options.rest_window + options.step) / 2;
+  const BlockId stone = add_box(mesh, {0.003, 0.003, 0.003}, {1, 0, 1}, false, {0, 0, speed});
+  options.limit = options.rest_window;
+  const packing::Packing<3> packing = settle(mesh, testing::material(0.6), options);
+  const packing::SettleReport& report = *packing.settled;
+  EXPECT_LT(packing.poses[stone].translation.norm(), 1e-9);
+  EXPECT_LT(report.rms_speed, options.rest_speed);
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NEAR(report.max_displacement, testing::g * options.rest_window * options.rest_window / 8, 1e-9);
+  EXPECT_NE(report.criterion.find("a point of block 2 moved"), std::string::npos) << report.criterion;
+}
+
+TEST(Rest, OfWhatDragHasNotActedOnYetIsNotSaidToBeFast) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+  add_box(mesh, {1, 1, 1}, {0, 0, 0.5}, false);
+  SettleOptions options;
+  options.viscous_damping = 0.1;
+  options.limit = 1;
+  const packing::Packing<3> packing = settle(mesh, testing::material(0.6), options);
+  EXPECT_FALSE(packing.settled->at_rest);
+  EXPECT_NE(packing.settled->criterion.find("the drag was still on, for it takes 10 s to act"), std::string::npos)
+      << packing.settled->criterion;
+}
+
+}  // namespace
+}  // namespace scree::rigid
