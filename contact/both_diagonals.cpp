@@ -84,10 +84,11 @@ void see_both(const Quadrilateral& face, const OfCorners& weights, Stencil<3>& s
 
 void see_both_diagonals(const mesh::BlockMesh<3>& mesh, Contacts<3>& contacts) {
   if (mesh.cells.empty()) return;
-  const Table<ElementId, CellId> cells = mesh::cells_of_elements(mesh);
+  const mesh::CellOfElement<3> cells(mesh);
   const auto face_of = [&](ElementId element, const Stencil<3>& stencil) -> std::optional<Quadrilateral> {
-    if (!cells[element].valid()) return std::nullopt;
-    return quadrilateral_about(mesh, mesh.cells[cells[element]], stencil.nodes);
+    const CellId cell = cells[element];
+    if (!cell.valid()) return std::nullopt;
+    return quadrilateral_about(mesh, mesh.cells[cell], stencil.nodes);
   };
   for_chunks(contacts.size(), [&](Chunk chunk) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {

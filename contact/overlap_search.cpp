@@ -148,7 +148,7 @@ class WholeFaces {
 class HalvedFaces {
  public:
   HalvedFaces(const Surface<3>& surface, double tolerance)
-      : surface_(surface), faces_(surface, tolerance), cells_(mesh::cells_of_elements(surface.mesh)) {}
+      : surface_(surface), faces_(surface, tolerance), cells_(surface.mesh) {}
 
   void find(FaceId first, FaceId second, std::vector<OverlapPoint<3>>& points) const {
     faces_.find(first, second, points);
@@ -197,7 +197,7 @@ class HalvedFaces {
 
   const Surface<3>& surface_;
   WholeFaces<3> faces_;
-  Table<ElementId, CellId> cells_;
+  mesh::CellOfElement<3> cells_;
 };
 
 // The contacts of every overlap of bodies of which wanted(one, other) is true, in the ascending order of the pairs of faces,

@@ -13,6 +13,7 @@
 #include "engine/mesh/part_in_box.h"
 #include "engine/mesh/surfaces.h"
 #include "thermal/looks_in_time.h"
+#include "thermal/places.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -264,8 +265,7 @@ DrivenNodes driven_nodes(const mesh::BlockMesh<dim>& mesh, const HeatOptions& op
   DrivenNodes driven;
   if (!any_perfect(options.joint)) return driven;
   HeatModel conditions;
-  conditions.places = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(mesh.nodes.size()));
-  for (const NodeId node : mesh.nodes.ids()) conditions.places.col(node.value()).template head<dim>() = mesh.nodes[node];
+  conditions.places = places_of(mesh);
   apply_boundaries(mesh, options, {}, conditions);
   driven = DrivenNodes(mesh.nodes.size(), 0);
   for (const NodeId node : conditions.fixed_nodes) driven[node] = 1;

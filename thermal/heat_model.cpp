@@ -12,6 +12,7 @@
 #include "thermal/fourth_order.h"
 #include "thermal/held_joints.h"
 #include "thermal/joint_conduction.h"
+#include "thermal/places.h"
 #include "thermal/problems.h"
 #include "thermal/row_numbering.h"
 #include "thermal/share_rows.h"
@@ -148,8 +149,7 @@ HeatModel unjoined(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Mat
   model.blocks = Table<NodeId, BlockId>(mesh.nodes.size());
   model.capacity = Eigen::VectorXd::Zero(size);
   model.initial = Eigen::VectorXd::Zero(size);
-  model.places = Eigen::Matrix3Xd::Zero(3, size);
-  for (const NodeId node : mesh.nodes.ids()) model.places.col(node.value()).template head<dim>() = mesh.nodes[node];
+  model.places = places_of(mesh);
   for (const BlockId b : mesh.blocks.ids()) {
     for (const NodeId node : mesh.blocks[b].nodes) model.blocks[node] = b;
     model.bodies.push_back(mesh.blocks[b].body);

@@ -31,10 +31,8 @@ class PerfectJoints {
   [[nodiscard]] PerfectTerms terms() {
     if (perfect_.empty()) return {};
     bounds_ = Table<ElementId, double>(mesh_.elements.size(), 0);
-    if (!mesh_.cells.empty()) {
-      cells_ = mesh::cells_of_elements(mesh_);
-      cell_bounds_ = Table<CellId, CellBounds>(mesh_.cells.size(), CellBounds{});
-    }
+    cells_ = mesh::CellOfElement<dim>(mesh_);
+    cell_bounds_ = Table<CellId, CellBounds>(mesh_.cells.size(), CellBounds{});
     for (const std::size_t c : perfect_) {
       add_to_bounds(c, contacts_[c].owner, owner_side(c));
       add_to_bounds(c, contacts_[c].target, target_side(c));
@@ -60,8 +58,9 @@ class PerfectJoints {
   [[nodiscard]] AllBehind target_side(std::size_t c) { return behind(contacts_[c].target_element, contacts_[c].on_target); }
 
   [[nodiscard]] AllBehind behind(ElementId element, const contact::Stencil<dim>& point) {
-    if (cells_.empty() || !cells_[element].valid()) return {{mesh_.elements[element], &bounds_[element]}};
-    return behind_cell_face(cells_[element], point);
+    const CellId cell = cells_[element];
+    if (!cell.valid()) return {{mesh_.elements[element], &bounds_[element]}};
+    return behind_cell_face(cell, point);
   }
 
   // One of each split: on a quadrilateral the one split has the triangle that was found, the other that of the other diagonal.
@@ -193,7 +192,7 @@ class PerfectJoints {
   const DrivenNodes& driven_;
   std::vector<std::size_t> perfect_;
   Table<ElementId, double> bounds_;  // of the elements of blocks without cells
-  Table<ElementId, CellId> cells_;   // empty if there are no cells
+  mesh::CellOfElement<dim> cells_;
   Table<CellId, CellBounds> cell_bounds_;
   PerfectTerms found_;
 };

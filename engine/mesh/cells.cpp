@@ -50,26 +50,22 @@ SimplexList<Simplex<dim>> both_splits(const BlockMesh<dim>& mesh, CellId cell) {
 }
 
 template <int dim>
-Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh) {
-  Table<ElementId, CellId> cells(mesh.elements.size());
+CellOfElement<dim>::CellOfElement(const BlockMesh<dim>& mesh) : cells_(mesh.cells.empty() ? 0 : mesh.elements.size()) {
   for (const Block& block : mesh.blocks) {
     auto element = block.elements.begin();
     for (const CellId cell : block.cells) {
-      for (std::size_t i = 0; i < split_count(mesh.cells[cell].kind); ++i, ++element) cells[*element] = cell;
+      for (std::size_t i = 0; i < split_count(mesh.cells[cell].kind); ++i, ++element) cells_[*element] = cell;
     }
   }
-  return cells;
 }
 
 template <int dim>
-CharacteristicLength<dim>::CharacteristicLength(const BlockMesh<dim>& mesh) : mesh_(mesh) {
-  if (!mesh.cells.empty()) cells_ = cells_of_elements(mesh);
-}
+CharacteristicLength<dim>::CharacteristicLength(const BlockMesh<dim>& mesh) : mesh_(mesh), cells_(mesh) {}
 
 template <int dim>
 double CharacteristicLength<dim>::of(ElementId element) const {
-  const bool in_cell = !cells_.empty() && cells_[element].valid();
-  return in_cell ? cell_mean_edge(mesh_, mesh_.cells[cells_[element]]) : element_mean_edge(mesh_, element);
+  const CellId cell = cells_[element];
+  return cell.valid() ? cell_mean_edge(mesh_, mesh_.cells[cell]) : element_mean_edge(mesh_, element);
 }
 
 std::optional<std::array<NodeId, 4>> quadrilateral_of(const Cell& cell, const std::array<NodeId, 3>& corners) {
@@ -104,12 +100,13 @@ Table<FaceId, WeightedFace<dim>> weighted_faces(const BlockMesh<dim>& mesh) {
   return faces;
 }
 
+template class CellOfElement<2>;
+template class CellOfElement<3>;
 template class CharacteristicLength<2>;
 template class CharacteristicLength<3>;
 
 #define SCREE_INSTANTIATE(dim)                                                        \
   template SimplexList<Simplex<dim>> both_splits<dim>(const BlockMesh<dim>&, CellId); \
-  template Table<ElementId, CellId> cells_of_elements<dim>(const BlockMesh<dim>&);    \
   template Table<FaceId, WeightedFace<dim>> weighted_faces<dim>(const BlockMesh<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)

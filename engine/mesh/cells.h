@@ -26,9 +26,17 @@ void for_each_simplex(const BlockMesh<dim>& mesh, const Block& block, const Visi
   for (const ElementId e : block.elements) visit(mesh.elements[e], 1.0);
 }
 
-// The cell that each element is a part of; not valid for elements of blocks without cells.
+// The cell that an element is a part of; not valid for one of a block without cells. No table where no block has any.
 template <int dim>
-Table<ElementId, CellId> cells_of_elements(const BlockMesh<dim>& mesh);
+class CellOfElement {
+ public:
+  CellOfElement() = default;  // of a mesh without cells
+  explicit CellOfElement(const BlockMesh<dim>& mesh);
+  [[nodiscard]] CellId operator[](ElementId element) const { return cells_.empty() ? CellId{} : cells_[element]; }
+
+ private:
+  Table<ElementId, CellId> cells_;
+};
 
 // The characteristic length of eq. (11): the mean length of the edges of an element, or of the cell that it is a part of, so
 // that it does not depend on how the cell is split [m].
@@ -40,7 +48,7 @@ class CharacteristicLength {
 
  private:
   const BlockMesh<dim>& mesh_;
-  Table<ElementId, CellId> cells_;  // empty if there are no cells
+  CellOfElement<dim> cells_;
 };
 
 // The face of the cell that these corners and one more make up, the corners in turn and that one last; nothing if they are a

@@ -116,7 +116,7 @@ Problem in_a_void(const ProbeSpec& spec, const mesh::BlockMesh<dim>& mesh, const
 }
 
 template <int dim>
-Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const Table<ElementId, CellId>& cells, BlockId block,
+Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const mesh::CellOfElement<dim>& cells, BlockId block,
                    const Point<dim>& point, const Nearest<dim>& nearest, Reading reading) {
   const auto& nodes = mesh.elements[nearest.element];
   if (reading == Reading::cubic) {
@@ -134,7 +134,7 @@ Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const Table<ElementId, Cell
 template <int dim>
 std::vector<Probe<dim>> locate_probes(const mesh::BlockMesh<dim>& mesh, const std::vector<ProbeSpec>& specs, Reading reading) {
   const auto blocks = mesh::element_blocks(mesh);
-  const auto cells = mesh::cells_of_elements(mesh);
+  const mesh::CellOfElement<dim> cells(mesh);
   std::vector<Probe<dim>> probes;
   std::vector<Problem> problems;
   for (const ProbeSpec& spec : specs) {

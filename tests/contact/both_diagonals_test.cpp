@@ -64,7 +64,7 @@ double brute_force(const mesh::BlockMesh<3>& mesh, const mesh::Cell& cell, const
 
 TEST(BothDiagonals, GiveTheMeanOfWhatEachGivesAtThePoint) {
   const auto mesh = boxes();
-  const auto cells = mesh::cells_of_elements(mesh);
+  const mesh::CellOfElement<3> cells(mesh);
   std::size_t quadrilaterals = 0;
   for (const Model model : {Model::overlap, Model::semi_spring}) {
     const auto set = find_contacts<3>(mesh, {0.3, 0.01, model, {}});

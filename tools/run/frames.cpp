@@ -56,7 +56,7 @@ output::Frame heat_frame(double time, const Eigen::VectorXd& temperature, const 
 template <int dim>
 std::vector<double> largest_in_cells(const mesh::BlockMesh<dim>& mesh, const std::vector<double>& of_element) {
   if (mesh.cells.empty()) return of_element;
-  const auto cells = mesh::cells_of_elements(mesh);
+  const mesh::CellOfElement<dim> cells(mesh);
   std::vector<double> largest;
   CellId last;
   for (const ElementId element : mesh.elements.ids()) {
