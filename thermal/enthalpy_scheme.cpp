@@ -3,8 +3,10 @@
 // with one matrix M for as many steps of one length as it serves, taken at the start of the first of them, and a new one where
 // the iteration converges slowly. It goes on until the residual is rounding, so that the ledger closes: what is left of r is
 // heat that came from nowhere.
+#include <array>
 #include <limits>
 
+#include "thermal/bent_path.h"
 #include "thermal/free_nodes.h"
 #include "thermal/heat_solver.h"
 #include "thermal/little_change.h"
@@ -18,10 +20,11 @@ namespace {
 using namespace sdirk2;
 
 constexpr int most_iterations = 30;
-constexpr double least_gain = 0.2;      // of an iteration, before a new matrix is worth its cost
-constexpr double left_of_heat = 1e-13;  // residual, of the heat that the stage moves
-constexpr double served_change = 0.02;  // of any entry of M's diagonal and of any conductivity, before M no longer serves
-constexpr double near_rounding = 4;     // a residual of up to so many times what rounding leaves is taken for that
+constexpr double least_gain = 0.2;        // of an iteration, before a new matrix is worth its cost
+constexpr double left_of_heat = 1e-13;    // residual, of the heat that the stage moves
+constexpr double served_change = 0.02;    // of any entry of M's diagonal and of any conductivity, before M no longer serves
+constexpr double estimated_change = 0.2;  // of any capacity, before M no longer serves the estimate
+constexpr double near_rounding = 4;       // a residual of up to so many times what rounding leaves is taken for that
 constexpr double quarter_of_a_unit = 0.25 * std::numeric_limits<double>::epsilon();
 
 class EnthalpyScheme : public TimeScheme {
@@ -30,6 +33,7 @@ class EnthalpyScheme : public TimeScheme {
       : model_(model),
         drives_(model),
         balance_(model),
+        path_(model, balance_, drives_),
         free_(model),
         solver_(model, free_, solver, run),
         conductance_(model.conductance.diagonal()),
@@ -63,7 +67,13 @@ class EnthalpyScheme : public TimeScheme {
     result.change = last.temperature - from.temperature;
     result.error = from.error + free_.scatter(carried + local);
     result.local_error = local.lpNorm<Eigen::Infinity>();
-    result.stages = {std::move(first), std::move(last)};
+    const std::array<Stage, 2> stages{std::move(first), std::move(last)};
+    if (const auto missed = path_.missed(from, length, stages, linear_.loss)) {
+      const Eigen::VectorXd bent = solver_.estimate(free_.gather(*missed));
+      result.error += free_.scatter(bent);
+      result.local_error = (local.cwiseAbs() + bent.cwiseAbs()).maxCoeff();
+    }
+    result.stages = {stages.begin(), stages.end()};
     return result;
   }
 
@@ -172,15 +182,23 @@ class EnthalpyScheme : public TimeScheme {
     return (temperature.array() <= 0 && from.array() > 0).any();
   }
 
-  // How the error changes over the step, and what that takes off the companion's heats. An error keeps its heat, not its
-  // temperature, where c changes.
+  // An error keeps its heat, not its temperature, where c changes. Where c does so by a multiple, as at the corners of a
+  // freezing curve, M must be the one of the state that the heat is shared out by: else the error grows or falls by as much.
+  void fit(const Stage& stage, const Eigen::VectorXd& capacity) {
+    if (little_changed(capacity, free_.gather(linear_.capacity), estimated_change)) return;
+    linearise(stage, balance_.linearised(stage.temperature, drives_.at(stage.time)));
+  }
+
+  // How the error changes over the step, and what that takes off the companion's heats.
   Eigen::VectorXd carry(const Instant& from, const Stage& first, const Stage& last, StageHeats& heats) {
     const auto capacity = [&](const Eigen::VectorXd& at) { return free_.gather(capacity_at(model_, at)); };
     const Eigen::VectorXd c0 = capacity(from.temperature), c1 = capacity(first.temperature), c2 = capacity(last.temperature);
     const Eigen::VectorXd e0 = free_.gather(from.error);
+    fit(first, c1);
     const Eigen::VectorXd start = -scale_ * free_.gather(balance_.lost(from.error, linear_));
     const Eigen::VectorXd e1 = e0 + solver_.estimate(start + (c0 - c1).cwiseProduct(e0));
     const Eigen::VectorXd heat1 = c1.cwiseProduct(e1) - c0.cwiseProduct(e0);
+    fit(last, c2);
     const Eigen::VectorXd e2 = e0 + solver_.estimate(start + (c0 - c2).cwiseProduct(e0) + from_first * heat1);
     heats.start -= start;
     heats.first -= heat1;
@@ -191,6 +209,7 @@ class EnthalpyScheme : public TimeScheme {
   const HeatModel& model_;
   Drives drives_;
   HeatBalance balance_;
+  BentPath path_;
   FreeNodes free_;
   HeatSolver solver_;
   Eigen::VectorXd conductance_;       // K_ii [W/K]

@@ -202,7 +202,10 @@ Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd&
                   [](const Curve& curve, double at) { return curve.slope(at) / value(curve, at); });
 }
 
-bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
+namespace {
+
+bool bends_on_the_way(const HeatModel& model, CurveLists curves, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                      double least) {
   constexpr double unlike_ends = 1.5;  // times
   constexpr double unlike_mean = 0.1;  // of the mean of the ends
   if (!model.varying) return false;
@@ -214,7 +217,18 @@ bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const
     const bool steep = std::max(first, last) > unlike_ends * std::min(first, last);
     return steep || std::abs(mean - middle) > unlike_mean * middle ? 1 : 0;
   };
-  return at_rows(*model.varying, &VaryingProperties::specific_heat, bends).maxCoeff() > 0;
+  return at_rows(*model.varying, curves, bends).maxCoeff() > 0;
+}
+
+}  // namespace
+
+bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
+  return bends_on_the_way(model, &VaryingProperties::specific_heat, from, to, least);
+}
+
+bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                   double least) {
+  return bends_on_the_way(model, &VaryingProperties::conductivity, from, to, least);
 }
 
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {

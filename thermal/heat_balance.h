@@ -37,7 +37,10 @@ Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd&
 
 // Whether the heat capacity of a node that gets warmer or colder by more than `least` [K] is far from a single value on the
 // way: temperatures bend there, as in a peak of latent heat.
-bool bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least);
+bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least);
+// The same of conductivities.
+bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                   double least);
 
 class HeatBalance {
  public:

@@ -48,7 +48,8 @@ bool PassedOutputs::any_in(double step) const {
 
 StepEnds PassedOutputs::ends_behind(const Way& way, const StepEnds& earlier) const {
   const StepEnd start = start_of(way);
-  const bool bent = start.temperature && bends_on_the_way(model_, way.from, way.from + way.change, least_bending * tolerance_);
+  const bool bent =
+      start.temperature && capacity_bends_on_the_way(model_, way.from, way.from + way.change, least_bending * tolerance_);
   return bent ? StepEnds() : followed_by(start, earlier);
 }
 
