@@ -1,6 +1,7 @@
 #include "thermal/choose_lumped.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <span>
 
@@ -55,6 +56,7 @@ class Chooser {
     look_at_held();
     look_at_perfect();
     if (!problems_.empty()) throw InputError(problems_);
+    find_least_conductivities();
     std::vector<LumpedBlock> chosen;
     const std::vector<Entry> entries = entries_of_candidates();
     auto first = entries.begin();
@@ -160,9 +162,9 @@ class Chooser {
     block.block = b;
     if (entries.empty()) return block;
     const mesh::Block& of = mesh_.blocks[b];
-    const Conductivity& conductivity = *materials_[mesh_.bodies[of.body].material].conductivity;
-    const InnerResistance<dim> inside(mesh_, of,
-                                      conductivity.value(reference_temperature) * conductivity_ratios<dim>(conductivity, of));
+    const MaterialId material = mesh_.bodies[of.body].material;
+    const Conductivity& conductivity = *materials_[material].conductivity;
+    const InnerResistance<dim> inside(mesh_, of, least_[material] * conductivity_ratios<dim>(conductivity, of));
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
@@ -177,6 +179,34 @@ class Chooser {
     }
     block.biot += constricted;
     return block;
+  }
+
+  // Of what is cold and hot at the start, within and outside: a block's temperature may go anywhere between.
+  [[nodiscard]] std::pair<double, double> range_at_start() const {
+    double low = model_.initial.minCoeff(), high = model_.initial.maxCoeff();
+    const auto include = [&](double temperature) {
+      low = std::min(low, temperature);
+      high = std::max(high, temperature);
+    };
+    for (const double held : start_.fixed) include(held);
+    for (const ExchangeRates& rates : start_.exchanges) {
+      for (const double temperature : rates.surroundings) include(temperature);
+    }
+    return {low, high};
+  }
+
+  void find_least_conductivities() {
+    constexpr int looks = 64;
+    const auto [low, high] = range_at_start();
+    for (const MaterialId material : materials_.ids()) {
+      double least = std::numeric_limits<double>::infinity();
+      if (materials_[material].conductivity) {
+        const Curve& k = materials_[material].conductivity->value;
+        const int count = k.constant() ? 0 : looks;
+        for (int i = 0; i <= count; ++i) least = std::min(least, k(low + i * (high - low) / looks));
+      }
+      least_.push_back(least);
+    }
   }
 
   PatchResistance& of_kind(std::size_t patch, LumpedBlock& block) const {
@@ -244,7 +274,8 @@ class Chooser {
   const JointConduction& joints_;
   const HeatOptions& options_;
   const HeatModel& model_;
-  const Drive start_;  // what acts from outside then
+  const Drive start_;                // what acts from outside then
+  Table<MaterialId, double> least_;  // k on the way between what is cold and hot at the start [W/m/K]
   Table<BlockId, BlockModel> wanted_;
   Table<BlockId, Held> held_;
   std::set<std::string> refused_;

@@ -134,7 +134,10 @@ bool arcs_cross(const EdgeArc& a, const EdgeArc& b) {
 // has the length of the edges' cross product.
 struct EdgeAxis {
   EdgeAxis(const EdgeArc& a, const EdgeArc& b) : along(a.direction.cross(b.direction)), length_sq(along.squaredNorm()) {
-    parallel = length_sq < 1e-16 * a.direction.squaredNorm() * b.direction.squaredNorm();
+    // A direction is off by as much as its ends are rounded, which counts far from the origin.
+    const double a_sq = a.direction.squaredNorm(), b_sq = b.direction.squaredNorm();
+    const double rounded = 4 * std::numeric_limits<double>::epsilon() * a.from.lpNorm<Eigen::Infinity>();
+    parallel = length_sq < std::max(1e-16 * a_sq * b_sq, rounded * rounded * (a_sq + b_sq));
     outwards = a.left + a.right;
     way = b.from - a.from;
   }

@@ -121,5 +121,15 @@ TEST(BarsAndJoint, ReachTheClosedFormOfTwoSlabsAndAJoint) {
   EXPECT_NEAR(flux, closed_form, 0.03 * closed_form);
 }
 
+// Steps in time may undershoot by what they may be off.
+TEST(Slab, MayBeHeldAtZeroKelvin) {
+  const SceneRun run =
+      test::run("slab", fresh_directory("slab_at_zero"),
+                {"heat.initial=4 K", "heat.integrator=implicit", "output.probes=null", "heat.until=2000 s", "output.every=20 s",
+                 "heat.boundaries=[{body: bar, within: {low: [0, -1], high: [0, 1]}, temperature: 0 K}]"});
+  EXPECT_EQ(run.exit_status, 0);
+  EXPECT_LT(run.summary["heat"]["least_temperature_ever"].get<double>(), 0);
+}
+
 }  // namespace
 }  // namespace scree::test

@@ -94,6 +94,26 @@ TEST(JointedCubes, ConductAsTheClosedFormSays) {
   EXPECT_FALSE(run.summary["heat"].contains("covered_boundaries"));
 }
 
+// A window is asked what the pile is, whatever is done to it; of unlike meshes perfect joints go by what drives them.
+TEST(PerfectJoints, ConductEffectivelyTheSameWhateverIsHeated) {
+  const auto along = [](const std::string& name, const std::string& boundaries) {
+    const SceneRun run = sound_run("bars_and_joint", name,
+                                   {"contact={perfect: true}", "bodies.right.mesh_size=0.0125",
+                                    "materials.steel={density: 7800, conductivity: 310, specific_heat: 480}",
+                                    "bodies.right.material=steel", "output.probes=null", "heat.until=1 h", boundaries,
+                                    "heat.effective_conductivity={low: [-0.2, -0.025, -0.025], high: [0.2, 0.025, 0.025]}"});
+    return run.summary["effective_conductivity"];
+  };
+  const auto nothing = along("effective_untouched", "heat.boundaries=[]");
+  EXPECT_EQ(along("effective_held", "heat.boundaries=[{body: right, temperature: 350}]"), nothing);
+  EXPECT_EQ(along("effective_heated", "heat.boundaries=[{body: left, flux: 100}]"), nothing);
+}
+
+TEST(Joints, RefuseAToleranceByWhichOnlyRoundingFindsContacts) {
+  const std::string refused = refusal("bars_and_joint", fresh_directory("no_tolerance"), {"contact.tolerance=0"});
+  EXPECT_NE(refused.find("contact.tolerance is 0 (must be positive"), std::string::npos) << refused;
+}
+
 // A gap of a quarter of a millimetre between meshes of 50 and 12.5 mm: the coarse side reaches over 1 % of its elements, the
 // fine one does not.
 TEST(BarsOfUnlikeMeshes, AreToldThatTheirJointConductsHalfAndWithWhichToleranceItConductsAll) {

@@ -53,6 +53,9 @@ TEST(StackOfCubes, StandsWithoutAnyOverlapWhereAClearanceIsKept) {
   EXPECT_NEAR(run.summary["settle"]["top"], 0.5 + 5e-4, 2e-5);
   EXPECT_EQ(run.summary["settle"]["max_penetration"], 0);
   EXPECT_EQ(run.summary["settle"]["certificate"]["contacts"]["face_face"], 5);
+  // Wider than what else counts as touching.
+  const SceneRun wide = test::run("stack_of_cubes", fresh_directory("stack_wide_apart"), {"settle.clearance=1 mm"});
+  EXPECT_EQ(wide.summary["settle"]["certificate"]["contacts"]["face_face"], 5);
 }
 
 TEST(SlidingBlock, StopsWhereFrictionHasEatenItsEnergy) {

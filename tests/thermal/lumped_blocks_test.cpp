@@ -239,6 +239,22 @@ TEST(LumpedBlocks, KnowTheirErrorWhereConvectionBeginsLater) {
   EXPECT_GT(test::heated(row.model()).lumping.largest, real);
 }
 
+// At room temperature it conducts ten times as well as where it is hot.
+TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyMayHave) {
+  const auto stated = [](const Curve& conductivity) {
+    auto row = row_of_cubes<2>(1, 4);
+    row.materials[MaterialId{0}].conductivity = conductivity;
+    row.options.initial_temperature[BodyId{0}] = 1000.0;
+    row.options.boundaries.push_back(test::convection(BodyId{0}, 5, 300.0));
+    row.options.blocks.model = BlockModel::lumped;
+    const HeatModel model = row.model();
+    return std::pair(biot_range(*model.lumped).largest, test::heated(model).lumping.largest);
+  };
+  const auto varying = stated(Curve::from_table(LinearTable({200, 300, 600, 1200}, {30, 30, 3, 3}))), least = stated(3.0);
+  EXPECT_NEAR(varying.first, least.first, 1e-12 * least.first);
+  EXPECT_NEAR(varying.second, least.second, 0.02 * least.second);
+}
+
 TEST(LumpedBlocks, MakeAMeshedStateUnfit) {
   auto row = row_of_cubes<2>(1, 1);
   TimeOptions options;

@@ -105,15 +105,18 @@ void add_probes(Page& page, const run::RunFiles& files) {
 void add_ledger(Page& page, const Json& heat) {
   page.heading("Energy ledger");
   const Json& ledger = heat["ledger"];
-  Rows rows{{"heat into the blocks", "J"}};
+  const bool steady = heat.value("steady", false);
+  Rows rows{{"heat into the blocks", steady ? "W" : "J"}};
   for (const auto& [kind, name] : {std::pair("by_boundary", "boundary"), std::pair("by_applied", "applied"),
                                    std::pair("by_surroundings", "surroundings")}) {
     for (const auto& [key, value] : ledger[kind].items()) {
       rows.push_back({fmt::format("{}: {}", name, escaped(key)), figure(value.get<double>())});
     }
   }
-  rows.push_back({"jump of boundaries at the start", figure(number(ledger, "start_jump"))});
-  rows.push_back({"stored in the blocks", figure(number(ledger, "stored"))});
+  if (!steady) {
+    rows.push_back({"jump of boundaries at the start", figure(number(ledger, "start_jump"))});
+    rows.push_back({"stored in the blocks", figure(number(ledger, "stored"))});
+  }
   rows.push_back({"missing", figure(number(ledger, "residual"))});
   page.table(rows);
   page.paragraph(fmt::format("Missing, relative to the heat that flowed: {}.", figure(number(heat, "ledger_residual"))));
@@ -122,8 +125,10 @@ void add_ledger(Page& page, const Json& heat) {
 void add_errors(Page& page, const Json& heat) {
   page.heading("Errors");
   Rows rows{{"of what", "how much", "against"}};
-  rows.push_back({"time steps, estimated", figure(number(heat, "time_error")) + " K",
-                  "tolerance " + figure(number(heat, "tolerance")) + " K"});
+  if (!heat.value("steady", false)) {
+    rows.push_back({"time steps, estimated", figure(number(heat, "time_error")) + " K",
+                    "tolerance " + figure(number(heat, "tolerance")) + " K"});
+  }
   if (heat.contains("space_error")) {
     rows.push_back({"mesh, estimated, largest of an element", figure(number(heat["space_error"], "largest")) + " K", ""});
   }

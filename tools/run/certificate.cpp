@@ -26,15 +26,20 @@ constexpr double lean_degrees = 2;
 
 struct Measured {
   const mesh::BlockMesh<3>& mesh;  // placed
+  Eigen::Matrix3d turn;            // by which the mesh is upright
   packing::Columns columns;        // of the mesh turned upright
   std::vector<TouchingPair> pairs;
   std::vector<bool> counted;  // of each block: it is free and still in the scene
   std::vector<bool> inner;    // and its centre lies in the inner region
 };
 
-mesh::BlockMesh<3> upright(mesh::BlockMesh<3> mesh, const Eigen::Vector3d& gravity) {
-  if (gravity.norm() == 0) return mesh;
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(-gravity, Eigen::Vector3d::UnitZ());
+// Which way round up is z.
+Eigen::Matrix3d upright(const Eigen::Vector3d& gravity) {
+  if (gravity.norm() == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::Quaterniond::FromTwoVectors(-gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+mesh::BlockMesh<3> turned_by(const Eigen::Matrix3d& turn, mesh::BlockMesh<3> mesh) {
   for (Point<3>& node : mesh.nodes) node = turn * node;
   return mesh;
 }
@@ -67,10 +72,11 @@ std::vector<bool> inner_blocks(const mesh::BlockMesh<3>& mesh, const packing::Co
   return inner;
 }
 
-Json porosity_json(const packing::Columns& columns) {
+Json porosity_json(const Measured& measured) {
+  const packing::Columns& columns = measured.columns;
   const auto inner = packing::inner_porosity(columns);
   if (!inner) return nullptr;
-  const auto corner = [](const Eigen::Vector3d& at) { return std::vector<double>(at.begin(), at.end()); };
+  const auto list = [](const Eigen::Vector3d& of) { return std::vector<double>(of.begin(), of.end()); };
   return {
       {"value", inner->porosity},
       {"solid_fraction", 1 - inner->porosity},
@@ -80,8 +86,9 @@ Json porosity_json(const packing::Columns& columns) {
                    columns.spacing, inner->margin)},
       {"volume", inner->volume},
       {"lines", inner->lines},
-      {"low", corner(inner->box.min())},
-      {"high", corner(inner->box.max())}};
+      {"low", list(inner->box.min())},
+      {"high", list(inner->box.max())},
+      {"axes", {list(measured.turn.row(0)), list(measured.turn.row(1)), list(measured.turn.row(2))}}};
 }
 
 Json coordination_json(const Measured& measured) {
@@ -181,21 +188,24 @@ std::string geometry_hash(const mesh::BlockMesh<3>& placed) {
 
 Json certificate(const Scene& scene, const packing::Packing<3>& packing) {
   const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
-  const mesh::BlockMesh<3> turned = upright(placed, scene.settle->options.gravity);
+  const Eigen::Matrix3d turn = upright(scene.settle->options.gravity);
+  const mesh::BlockMesh<3> turned = turned_by(turn, placed);
   const packing::PieceSet pieces(turned);
   const std::vector<BlockId>& lost = packing.settled->lost_blocks;
   const auto is_lost = [&lost](BlockId block) { return std::binary_search(lost.begin(), lost.end(), block); };
-  Measured measured{turned, packing::cut_by_lines(turned, pieces, lost), {}, {}, {}};
+  Measured measured{turned, turn, packing::cut_by_lines(turned, pieces, lost), {}, {}, {}};
   for (const BlockId block : turned.blocks.ids()) measured.counted.push_back(free_block(turned, block) && !is_lost(block));
   const double size = measured.columns.size;
-  measured.pairs = packing::touching_pairs(pieces, {touching_range * size, lean_degrees * std::numbers::pi / 180});
+  // Blocks that keep a clearance bear each other across it.
+  const double range = touching_range * size + scene.settle->options.clearance;
+  measured.pairs = packing::touching_pairs(pieces, {range, lean_degrees * std::numbers::pi / 180});
   std::erase_if(measured.pairs, [&](const TouchingPair& pair) { return is_lost(pair.first) || is_lost(pair.second); });
   measured.inner = inner_blocks(turned, measured.columns, measured.counted);
   const auto repose = packing::angle_of_repose(measured.columns);
   Json json{{"block_size", size},
-            {"touching_range", touching_range * size},
+            {"touching_range", range},
             {"lean_degrees", lean_degrees},
-            {"porosity", porosity_json(measured.columns)},
+            {"porosity", porosity_json(measured)},
             {"coordination", coordination_json(measured)},
             {"contacts", contacts_json(measured)},
             {"force_balance", balance_json(scene, packing, measured.counted)}};

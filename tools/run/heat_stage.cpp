@@ -157,7 +157,8 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
                                 [&] { return heat_model(scene, outcome.pile); });
   if (const auto window = effective_window<dim>(scene)) {
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
-      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials, *outcome.model, *window);
+      return thermal::effective_conductivity(outcome.pile.mesh, scene.materials,
+                                             *undriven_model(scene, outcome.pile, outcome.model), *window);
     });
   }
   say_rows(context, outcome);

@@ -83,13 +83,27 @@ std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const H
       new thermal::HeatModel(thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, pile.joints, options)));
 }
 
-#define SCREE_INSTANTIATE(dim)                                                               \
-  template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,      \
-                                            const std::function<void(const std::string&)>&); \
-  template std::optional<Aabb<dim>> effective_window<dim>(const Scene&);                     \
-  template contact::ContactOptions search_of<dim>(const Scene&, const HeatedPile<dim>&);     \
-  template void join<dim>(const Scene&, HeatedPile<dim>&);                                   \
-  template std::shared_ptr<const thermal::HeatModel> heat_model<dim>(const Scene&, const HeatedPile<dim>&);
+template <int dim>
+std::shared_ptr<const thermal::HeatModel> undriven_model(const Scene& scene, const HeatedPile<dim>& pile,
+                                                         std::shared_ptr<const thermal::HeatModel> driven) {
+  if (!thermal::any_perfect(scene.heat->joint)) return driven;
+  thermal::HeatOptions options = *scene.heat;
+  options.initial_field = pile.start;
+  options.boundaries.clear();
+  options.sources.clear();
+  return std::shared_ptr<const thermal::HeatModel>(
+      new thermal::HeatModel(thermal::make_heat_model(pile.mesh, scene.materials, pile.contacts, options)));
+}
+
+#define SCREE_INSTANTIATE(dim)                                                                                 \
+  template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,                        \
+                                            const std::function<void(const std::string&)>&);                   \
+  template std::optional<Aabb<dim>> effective_window<dim>(const Scene&);                                       \
+  template contact::ContactOptions search_of<dim>(const Scene&, const HeatedPile<dim>&);                       \
+  template void join<dim>(const Scene&, HeatedPile<dim>&);                                                     \
+  template std::shared_ptr<const thermal::HeatModel> heat_model<dim>(const Scene&, const HeatedPile<dim>&);    \
+  template std::shared_ptr<const thermal::HeatModel> undriven_model<dim>(const Scene&, const HeatedPile<dim>&, \
+                                                                         std::shared_ptr<const thermal::HeatModel>);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -56,4 +56,10 @@ void join(const Scene& scene, HeatedPile<dim>& pile);
 template <int dim>
 std::shared_ptr<const thermal::HeatModel> heat_model(const Scene& scene, const HeatedPile<dim>& pile);
 
+// The same without what heats it, by which perfect joints go beside it (driven_nodes): what the pile is, not what is done to
+// it.
+template <int dim>
+std::shared_ptr<const thermal::HeatModel> undriven_model(const Scene& scene, const HeatedPile<dim>& pile,
+                                                         std::shared_ptr<const thermal::HeatModel> driven);
+
 }  // namespace scree::run

@@ -210,6 +210,7 @@ void add_heat(Json& summary, const Scene& scene, const HeatOutcome<dim>& outcome
                      {"largest_temperature", state.temperature.maxCoeff()},
                      {"least_temperature_ever", state.reached.least},
                      {"largest_temperature_ever", state.reached.largest}};
+  if (scene.heat->time.steady) summary["heat"]["steady"] = true;
   for (const CoveredBoundary& boundary : outcome.covered) {
     summary["heat"]["covered_boundaries"].push_back(
         {{"name", boundary.name}, {"area", boundary.area}, {"covered_area", boundary.covered_area}});
@@ -285,7 +286,8 @@ std::vector<std::string> unsound(const Scene& scene, const HeatOutcome<dim>& hea
     reasons.push_back(
         fmt::format("the time error reached {:.3g} K, above heat.tolerance of {:.3g} K", state.time_error, tolerance));
   }
-  if (state.reached.least < 0) {
+  // Of steps in time within their error.
+  if (state.reached.least < (scene.heat->time.steady ? 0 : -tolerance)) {
     reasons.push_back(
         fmt::format("temperatures fell to {:.6g} K, below 0 K: more heat was taken away than there was. Look at "
                     "negative fluxes and flows, and at overshoot on coarse meshes",

@@ -145,7 +145,7 @@ Keys time_keys() {
           .words({"auto", "cholesky", "multigrid"})
           .fallback("auto")
           .only({without("explicit_euler"), without("stabilised_explicit")}),
-      row("heat.step", quantity, "Time step.", q::time, positive)
+      row("heat.step", quantity, "Time step; equal parts of output.every that are no longer.", q::time, positive)
           .otherwise("largest stable one")
           .only({in_time, Condition{"heat.integrator", "explicit_euler"}}),
   };

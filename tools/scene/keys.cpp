@@ -247,7 +247,7 @@ Keys contact_keys() {
           Range{.low = 0, .high = 1, .low_open = true, .high_open = true})
           .fallback(fmt::format("{}", by_default.indentation)),
       row("contact.tolerance", quantity, "Largest gap or depth that counts as touching, in edge lengths of the element.",
-          q::number, not_negative)
+          q::number, positive)
           .fallback(fmt::format("{}", by_default.tolerance)),
       row("contact.stiffness_factor", quantity, "Factor beta of a contact's conductance, beta k/dL per area.", q::number,
           not_negative)
