@@ -43,24 +43,6 @@ double brute_force(const PlacedPiece& a, const PlacedPiece& b) {
   return best;
 }
 
-// Corners are rounded there by 1e-9 m, and edges that are parallel cross at a small angle.
-TEST(Separation, OfCubesThatLieFlushIsTheSameAtSurveyCoordinatesAsAtTheOrigin) {
-  const Vector3d cube(0.1, 0.1, 0.1);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> coordinate(-0.05, 0.05);
-  for (int i = 0; i < 2000; ++i) {
-    const Vector3d site(500000 + coordinate(random), 6000000 + coordinate(random), 300 + coordinate(random));
-    const Vector3d way(0.08, coordinate(random) > 0 ? 0 : 0.1, coordinate(random) > 0 ? 0 : 0.05);
-    const auto distance_at = [&](const Vector3d& origin) {
-      mesh::BlockMesh<3> mesh;
-      const BlockId first = add_box(mesh, cube, origin, true), second = add_box(mesh, cube, Vector3d(origin + way), false);
-      const auto a = mesh::convex_pieces(mesh, first), b = mesh::convex_pieces(mesh, second);
-      return separation(placed(a.front(), {}), placed(b.front(), {}), 1).distance;
-    };
-    EXPECT_NEAR(distance_at(site), distance_at(Vector3d::Zero()), 1e-8);
-  }
-}
-
 mesh::ConvexPiece random_tetrahedron(std::mt19937& random) {
   std::uniform_real_distribution<double> coordinate(-1, 1);
   mesh::BlockMesh<3> mesh;

@@ -27,6 +27,21 @@ TEST(Rest, AStoneThatIsBackWhereItWasAfterAWindowHasMoved) {
   EXPECT_NE(report.criterion.find("a point of block 2 moved"), std::string::npos) << report.criterion;
 }
 
+// Corners are rounded there by 1e-9 m, and edges that are parallel cross at a small angle.
+TEST(Rest, OfCubesThatStandFlushIsTheSameAtSurveyCoordinates) {
+  mesh::BlockMesh<3> mesh;
+  const testing::Vector3d site(500000, 6000000, 300);
+  add_box(mesh, {2, 2, 0.1}, site - testing::Vector3d(0, 0, 0.05), true);
+  for (int i = 0; i < 48; ++i) {
+    add_box(mesh, {0.1, 0.1, 0.1}, site + 0.1 * testing::Vector3d(i % 4, i / 4 % 4, i / 16 + 0.5), false);
+  }
+  SettleOptions options;
+  options.limit = 1;
+  const packing::Packing<3> packing = settle(mesh, testing::material(0.6), options);
+  EXPECT_TRUE(packing.settled->at_rest) << packing.settled->criterion;
+  EXPECT_LT(packing.settled->deepest_overlap, 1e-3);
+}
+
 TEST(Rest, OfWhatDragHasNotActedOnYetIsNotSaidToBeFast) {
   mesh::BlockMesh<3> mesh;
   add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
