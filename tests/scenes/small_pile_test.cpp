@@ -5,7 +5,10 @@
 
 #include <gmock/gmock.h>
 
+#include "engine/base/progress.h"
 #include "tests/scenes/scene_run.h"
+#include "tools/run/run_scene.h"
+#include "tools/scene/read_scene.h"
 
 namespace scree::test {
 namespace {
@@ -131,6 +134,22 @@ TEST_F(SmallPile, RefusesAStoredPackingWhoseClearanceTheContactsNoLongerReachAcr
   auto nearer = apart;
   nearer.push_back("contact.tolerance=1e-5");
   EXPECT_NE(refusal("small_pile", directory, nearer).find("settle.clearance"), std::string::npos);
+}
+
+TEST_F(SmallPile, OfAPackingThatWasStillMovingIsHeatedWithAWord) {
+  const auto directory = fresh_directory("small_pile_moving");
+  ASSERT_EQ(test::run("small_pile", directory, {"settle.limit=0.3 s", "heat.until=5 min"}).exit_status, 1);
+  const auto said = [&](const std::filesystem::path& packing) {
+    const Scene scene = read_scene(std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / "small_pile.yaml",
+                                   {"settle=null", "packing=" + packing.string(), "heat.until=5 min", "output.probes=null"});
+    testing::internal::CaptureStderr();
+    Progress progress(ProgressMode::lines);
+    EXPECT_EQ(run::run_scene(scene, {fresh_directory("small_pile_moving_heated")}, run::Start::fresh, progress), 0);
+    return testing::internal::GetCapturedStderr();
+  };
+  const char* words = "packing: its blocks were still moving when it was written";
+  EXPECT_NE(said(directory / "packing.h5").find(words), std::string::npos);
+  EXPECT_EQ(said(run_->directory / "packing.h5").find(words), std::string::npos);
 }
 
 TEST_F(SmallPile, IsNotHeatedAsABodyThatItsPackingDoesNotHold) {

@@ -65,6 +65,18 @@ void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& b
     context.progress.note("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
 }
 
+// Whoever names a packing accepts it as it is, which the run that made it may not have done.
+template <int dim>
+void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
+  if (!packing.settled) return;
+  const packing::SettleReport& report = *packing.settled;
+  if (!report.at_rest) context.progress.note("packing: its blocks were still moving when it was written");
+  const double overlap = report.max_penetration / report.mean_edge;
+  if (overlap > SettleStage{}.largest_overlap) {
+    context.progress.note(fmt::format("packing: two of its blocks overlap by {:.3g} of the mean edge", overlap));
+  }
+}
+
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   const SettleStage& stage = *context.scene.settle;
   output::Series series(context.files.directory, settle_series);
@@ -171,6 +183,7 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
     auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
                                  [&] { return stored_packing<dim>(context.scene); });
     note_unknown_making(context, packing.mesh.bodies);
+    note_unsettled(context, packing);
     return {std::move(packing), false};
   }
   auto blocks = context.stage("mesh", fmt::format("{} bodies", context.scene.bodies.size()),
