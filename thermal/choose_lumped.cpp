@@ -195,6 +195,15 @@ class Chooser {
     return {low, high};
   }
 
+  // A formula need not have a value at the temperature of a sky, which no block comes near.
+  static double value_or_infinity(const Curve& curve, double temperature) {
+    try {
+      return curve(temperature);
+    } catch (const InputError&) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
   void find_least_conductivities() {
     constexpr int looks = 64;
     const auto [low, high] = range_at_start();
@@ -203,7 +212,7 @@ class Chooser {
       if (materials_[material].conductivity) {
         const Curve& k = materials_[material].conductivity->value;
         const int count = k.constant() ? 0 : looks;
-        for (int i = 0; i <= count; ++i) least = std::min(least, k(low + i * (high - low) / looks));
+        for (int i = 0; i <= count; ++i) least = std::min(least, value_or_infinity(k, low + i * (high - low) / looks));
       }
       least_.push_back(least);
     }

@@ -253,6 +253,8 @@ TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyMayHave) {
   const auto varying = stated(Curve::from_table(LinearTable({200, 300, 600, 1200}, {30, 30, 3, 3}))), least = stated(3.0);
   EXPECT_NEAR(varying.first, least.first, 1e-12 * least.first);
   EXPECT_NEAR(varying.second, least.second, 0.02 * least.second);
+  const auto formula = stated(test::curve("3 + sqrt(T - 400)*0"));  // none below 400 K, where the air is
+  EXPECT_NEAR(formula.first, least.first, 1e-12 * least.first);
 }
 
 TEST(LumpedBlocks, MakeAMeshedStateUnfit) {
