@@ -267,13 +267,22 @@ class Chooser {
     return patch;
   }
 
-  // Of no conductance: it enters the error, not the Biot number.
+  // Of no conductance: it enters the error, not the Biot number. Where it is strong is seen at the start; what is zero then
+  // counts as alike everywhere.
   [[nodiscard]] Patch load_patch(std::size_t l, const Entries& entries, const Point<dim>& centroid) const {
-    const NodeShares& on = model_.loads[l].on;
+    const Load& load = model_.loads[l];
     Patch patch;
+    PatchMoments<dim> by_shares;
+    double strength = 0;
     for (const Entry& entry : entries) {
-      patch.moments.add(mesh_.nodes[on.nodes[entry.item]] - centroid, on.shares[entry.item]);
+      const Point<dim> arm = mesh_.nodes[load.on.nodes[entry.item]] - centroid;
+      const double share = load.on.shares[entry.item];
+      const double weight = share * std::abs(load.density(load.on.places.col(entry.item), 0));
+      patch.moments.add(arm, weight);
+      by_shares.add(arm, share);
+      strength += weight;
     }
+    if (strength == 0) patch.moments = by_shares;
     return patch;
   }
 

@@ -109,6 +109,19 @@ TEST(PerfectJoints, ConductEffectivelyTheSameWhateverIsHeated) {
   EXPECT_EQ(along("effective_heated", "heat.boundaries=[{body: left, flux: 100}]"), nothing);
 }
 
+TEST(Joints, RefuseWhatNoneOfThemUses) {
+  const auto refused = [](const std::string& contact) {
+    return refusal("bars_and_joint", fresh_directory("joints_unused"), {"contact=" + contact, "heat.until=1 min"});
+  };
+  EXPECT_NE(refused("{conductance: 50, indentation: 0.3}").find("contact.indentation is 0.3 (is of semi-springs"),
+            std::string::npos);
+  EXPECT_NE(refused("{insulating: true, model: overlap}").find("contact.model is overlap (is of joints that conduct"),
+            std::string::npos);
+  EXPECT_NE(refused("{joints: [{bodies: [left, right], insulating: true, model: overlap}]}").find("contact.joints[0].model"),
+            std::string::npos);
+  EXPECT_EQ(refused("{conductance: 50, model: semi_spring, indentation: 0.3}"), "accepted");
+}
+
 TEST(Joints, RefuseAToleranceByWhichOnlyRoundingFindsContacts) {
   const std::string refused = refusal("bars_and_joint", fresh_directory("no_tolerance"), {"contact.tolerance=0"});
   EXPECT_NE(refused.find("contact.tolerance is 0 (must be positive"), std::string::npos) << refused;

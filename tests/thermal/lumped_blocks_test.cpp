@@ -239,6 +239,24 @@ TEST(LumpedBlocks, KnowTheirErrorWhereConvectionBeginsLater) {
   EXPECT_GT(test::heated(row.model()).lumping.largest, real);
 }
 
+// Heated near a corner only, for as long as its inside takes to follow.
+TEST(LumpedBlocks, KnowTheirErrorWhereALoadIsStrongAtOneEnd) {
+  const auto run = [](BlockModel model, const std::string& density) {
+    auto row = row_of_cubes<2>(1, 20);
+    Source source{test::on(BodyId{0}), test::formula(density), "source", {}};
+    row.options.sources.push_back(source);
+    row.options.blocks.model = model;
+    return test::heated(row.model(), 20000);
+  };
+  for (const std::string density : {"1e5*exp(-x/0.01)", "1e5*exp(-(x + y)/0.02)"}) {
+    const auto meshed = run(BlockModel::meshed, density);
+    const double real = 0.5 * (meshed.temperature.maxCoeff() - meshed.temperature.minCoeff());
+    const double stated = run(BlockModel::lumped, density).lumping.largest;
+    EXPECT_GT(stated, real) << density;
+    EXPECT_LT(stated, 6 * real) << density;
+  }
+}
+
 // At room temperature it conducts ten times as well as where it is hot.
 TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyMayHave) {
   const auto stated = [](const Curve& conductivity) {

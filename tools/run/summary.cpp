@@ -284,7 +284,10 @@ std::vector<std::string> unsound(const Scene& scene, const HeatOutcome<dim>& hea
   const double tolerance = scene.heat->time.tolerance;
   if (!(state.time_error <= tolerance)) {
     reasons.push_back(
-        fmt::format("the time error reached {:.3g} K, above heat.tolerance of {:.3g} K", state.time_error, tolerance));
+        fmt::format("the time error reached {:.3g} K, above heat.tolerance of {:.3g} K{}", state.time_error, tolerance,
+                    heat.model->varying && state.factorisations == 0
+                        ? ". Where a specific heat falls with temperature errors grow: heat.integrator: implicit may stay below"
+                        : ""));
   }
   // Of steps in time within their error.
   if (state.reached.least < (scene.heat->time.steady ? 0 : -tolerance)) {
