@@ -78,6 +78,23 @@ TEST(StudyEnsembles, LeaveOutMembersThatAreNotSound) {
   EXPECT_THAT(table.find("hot.mean")->numbers, testing::ElementsAre(15, 8));
 }
 
+TEST(StudyEnsembles, GiveNoMeanTimeWhereAMemberNeverGetsThere) {
+  Study study;
+  study.factors.push_back({{"beta"}, {}, {}, {}});
+  Report time;
+  time.column = "time";
+  time.probe = "inside";
+  study.reports.push_back(time);
+  const Table runs{{{"point", {1, 1, 1, 2, 2, 2}},
+                    {"beta", {1, 1, 1, 5, 5, 5}},
+                    {"time", {10, missing, 20, 7, missing, 9}},
+                    {"status", {}, {"complete", "complete", "complete", "complete", "not_converged", "complete"}, true}}};
+  const Table table = ensembles_of(study, runs);
+  EXPECT_THAT(table.find("time.count")->numbers, testing::ElementsAre(2, 2));
+  EXPECT_TRUE(std::isnan(table.find("time.mean")->numbers[0]) && std::isnan(table.find("time.low")->numbers[0]));
+  EXPECT_EQ(table.find("time.mean")->numbers[1], 8);
+}
+
 TEST(StudyPlot, MakesALineOfEachSeriesInTheOrderOfX) {
   PlotArguments arguments;
   arguments.x = "beta";

@@ -36,6 +36,14 @@ Column first_of_each(const Column& column, const std::vector<std::vector<std::si
   return first;
 }
 
+// Of a figure's members that are sound. Where some never get to a temperature, or not yet, the mean of the times of the others
+// says nothing of them all.
+Statistics statistics_of_members(const Report& report, const std::vector<double>& values) {
+  const Statistics all = statistics_of(values);
+  if (report.probe.empty() || all.count == values.size()) return all;
+  return {all.count, missing, missing, missing, missing};
+}
+
 }  // namespace
 
 Statistics statistics_of(const std::vector<double>& values) {
@@ -75,8 +83,10 @@ Table ensembles_of(const Study& study, const Table& runs) {
     for (const auto& rows : points) {
       std::vector<double> values;
       values.reserve(rows.size());
-      for (const std::size_t row : rows) values.push_back(status[row] == "complete" ? column.numbers[row] : missing);
-      const Statistics s = statistics_of(values);
+      for (const std::size_t row : rows) {
+        if (status[row] == "complete") values.push_back(column.numbers[row]);
+      }
+      const Statistics s = statistics_of_members(report, values);
       const double figures[] = {static_cast<double>(s.count), s.mean, s.deviation, s.low, s.high};
       for (std::size_t i = 0; i < statistics.size(); ++i) statistics[i].numbers.push_back(figures[i]);
     }

@@ -20,7 +20,8 @@ struct Statistics {
 Statistics statistics_of(const std::vector<double>& values);
 
 // A row per combination: what varies but the ensemble, and for every figure reported NAME.count, .mean, .deviation, .low and
-// .high over the members that are complete.
+// .high over the members that are complete; of a time at which a probe gets to a temperature only .count, the number of those
+// that do, where one of them does not.
 Table ensembles_of(const Study& study, const Table& runs);
 
 }  // namespace scree::study
