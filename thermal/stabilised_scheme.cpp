@@ -10,8 +10,10 @@
 // bends: half a millikelvin, of which the flow at the next step's start, and the estimate of rkl2.h with it, makes 8 mK.
 //
 // Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J x) is half of F''(D, D),
-// so -h/3 C^-1 times that is added. A coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1)
-// times what they are of D. The global error is carried by the scheme itself as a second column of each product.
+// so -h/3 C^-1 times that is added; of temperatures that are held, which may be back by then, the mean of it over the step. A
+// coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1) times what they are of D. The global
+// error is carried by the scheme itself as a second column of each product.
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -51,6 +53,8 @@ class StabilisedScheme : public TimeScheme {
         watched_(ledger_nodes(model)) {
     linearise({0, model.initial, {}});
     if (!has_constant_properties(model)) changing_ = std::move(stable);
+    held_conductivity_bends_ = conducts_by_temperature() && std::any_of(model.holds.begin(), model.holds.end(),
+                                                                        [](const Hold& hold) { return varies_in_time(hold); });
     resize({&start_, &newer_, &older_});
     if (!sharing_.empty()) resize({&rates_, &beside_});
     if (conducts_by_temperature()) resize({&beside_, &conducted_});
@@ -158,6 +162,28 @@ class StabilisedScheme : public TimeScheme {
     return result;
   }
 
+  // By how much more heat leaves each node than along the tangent, for what held temperatures make of k on their way: the mean
+  // over the step less the third of that at its end which the estimate counts [W]. A swing may be back by then.
+  [[nodiscard]] std::optional<Eigen::VectorXd> beside_held(const Instant& from, double length) {
+    if (!held_conductivity_bends_) return std::nullopt;
+    constexpr int looks = 8;
+    const VaryingProperties& properties = *model_.varying;
+    Eigen::VectorXd beside = Eigen::VectorXd::Zero(from.temperature.size());
+    const auto look_at = [&](double part, double weight) {
+      const Drive& drive = drives_.at(from.time + part * length);
+      for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
+        const NodeId node = model_.fixed_nodes[i];
+        const Curve& k = properties.conductivity[static_cast<std::size_t>(properties.material[node])];
+        const double begin = from.temperature[node.value()], now = drive.fixed[static_cast<Eigen::Index>(i)];
+        const double along = linear_.conductivity[node.value()] * (now - begin);
+        beside[node.value()] += weight * (k.integral(now) - k.integral(begin) - along);
+      }
+    };
+    for (int i = 0; i < looks; ++i) look_at((i + 0.5) / looks, 1.0 / looks);
+    look_at(1, -1.0 / 3);
+    return balance_.unit_flows().leaving(beside);
+  }
+
   // What the step's change is of the enthalpy, it becomes of the temperature, and so do the errors.
   void leave_tangent(const Instant& from, double length, double estimate, Step& result) {
     const Drive& drive = drives_.at(from.time + length);
@@ -168,11 +194,13 @@ class StabilisedScheme : public TimeScheme {
     const Eigen::VectorXd end = from.temperature + result.change;
     const Eigen::VectorXd heating = balance_.heating(end, drive);
     const Eigen::VectorXd capacity = capacity_at(model_, end);
+    const auto beside = beside_held(from, length);
     result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
       if (inverse_[row] == 0) return 0.0;
       const double along = start_(row, 0) - older_(row, 0);
       const double bent = length * inverse_[row] * heating[row] - along;
-      const double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
+      double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
+      if (beside) local += length * inverse_[row] * (*beside)[row];
       const double shrinks = linear_.capacity[row] / capacity[row];
       result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
       return std::abs(shrinks * local);
@@ -339,11 +367,12 @@ class StabilisedScheme : public TimeScheme {
   HeatBalance balance_;
   MovingDrive moving_;
   BentStorage storage_;
-  Linearised linear_;                    // at the step's start
-  Eigen::VectorXd inverse_;              // of its capacity, 0 for a fixed node [K/J]
-  double stable_;                        // of eq. (8), there [s]
-  std::optional<StableSteps> changing_;  // nothing if that is the same at all temperatures
-  FlowNetwork sharing_;                  // B; empty in second order
+  Linearised linear_;                     // at the step's start
+  Eigen::VectorXd inverse_;               // of its capacity, 0 for a fixed node [K/J]
+  double stable_;                         // of eq. (8), there [s]
+  std::optional<StableSteps> changing_;   // nothing if that is the same at all temperatures
+  bool held_conductivity_bends_ = false;  // with a temperature that changes in time
+  FlowNetwork sharing_;                   // B; empty in second order
   std::vector<NodeId> watched_;
   // Of the step: h C^-1 F at its start, and D of the last two stages.
   Columns start_, newer_, older_;
