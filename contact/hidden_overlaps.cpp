@@ -15,6 +15,17 @@ namespace {
 constexpr double least_gap = 1e-4;  // of the contact's length
 constexpr double rounding = 1e-9;   // likewise
 
+// Is a point outside the box about these corners and what is so near?
+template <int dim>
+bool beside(const Corners<dim>& corners, const Point<dim>& point, double near) {
+  Point<dim> low = corners[0], high = corners[0];
+  for (int i = 1; i < dim; ++i) {
+    low = low.cwiseMin(corners[i]);
+    high = high.cwiseMax(corners[i]);
+  }
+  return ((point - low).array() < -near).any() || ((point - high).array() > near).any();
+}
+
 template <int dim>
 bool may_be_hidden(const Contact<dim>& contact) {
   return contact.kind == Kind::overlap && contact.gap > least_gap * contact.length;
@@ -99,6 +110,7 @@ class Partners {
       const double way = (corners[0] - point).dot(normal) / slope;
       if (way >= near) continue;
       const Point<dim> hit = point + way * along;
+      if (beside<dim>(corners, hit, rounding * contact.length)) continue;  // most are, and that is soon seen
       const double off = (weighted_point<dim>(corners, closest_weights<dim>(corners, hit)) - hit).norm();
       if (off <= rounding * contact.length) return true;
     }
