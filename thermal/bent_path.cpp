@@ -1,7 +1,5 @@
 #include "thermal/bent_path.h"
 
-#include <algorithm>
-
 #include "thermal/sdirk2.h"
 
 namespace scree::thermal {
@@ -31,9 +29,7 @@ BentPath::BentPath(const HeatModel& model, const HeatBalance& balance, Drives& d
     : model_(model),
       balance_(balance),
       drives_(drives),
-      held_conductivity_bends_(
-          !balance.unit_flows().empty() &&
-          std::any_of(model.holds.begin(), model.holds.end(), [](const Hold& hold) { return varies_in_time(hold); })) {}
+      held_conductivity_bends_(!balance.unit_flows().empty() && holds_vary_in_time(model)) {}
 
 bool BentPath::bends(const Instant& from, const std::array<Stage, 2>& stages) const {
   if (held_conductivity_bends_) return true;
@@ -46,7 +42,7 @@ bool BentPath::bends(const Instant& from, const std::array<Stage, 2>& stages) co
 
 std::optional<Eigen::VectorXd> BentPath::missed(const Instant& from, double length, const std::array<Stage, 2>& stages,
                                                 const Eigen::VectorXd& loss) {
-  if (!model_.varying || !bends(from, stages)) return std::nullopt;
+  if (!bends(from, stages)) return std::nullopt;
   const Eigen::VectorXd &begin = from.temperature, &first = stages[0].temperature, &last = stages[1].temperature;
   const bool conducts = !balance_.unit_flows().empty();
   Defect of_temperature, of_potential;

@@ -273,16 +273,14 @@ class Chooser {
     const Load& load = model_.loads[l];
     Patch patch;
     PatchMoments<dim> by_shares;
-    double strength = 0;
     for (const Entry& entry : entries) {
       const Point<dim> arm = mesh_.nodes[load.on.nodes[entry.item]] - centroid;
       const double share = load.on.shares[entry.item];
       const double weight = share * std::abs(load.density(load.on.places.col(entry.item), 0));
       patch.moments.add(arm, weight);
       by_shares.add(arm, share);
-      strength += weight;
     }
-    if (strength == 0) patch.moments = by_shares;
+    if (patch.moments.weight == 0) patch.moments = by_shares;
     return patch;
   }
 

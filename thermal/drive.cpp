@@ -73,7 +73,11 @@ bool varies_in_time(const HeatModel& model) {
   const auto any = [](const auto& list) {
     return std::any_of(list.begin(), list.end(), [](const auto& one) { return varies_in_time(one); });
   };
-  return any(model.holds) || any(model.loads) || any(model.exchanges);
+  return holds_vary_in_time(model) || any(model.loads) || any(model.exchanges);
+}
+
+bool holds_vary_in_time(const HeatModel& model) {
+  return std::any_of(model.holds.begin(), model.holds.end(), [](const Hold& hold) { return varies_in_time(hold); });
 }
 
 Drives::Drives(const HeatModel& model) : model_(model), vary_(varies_in_time(model)) {

@@ -28,6 +28,7 @@ bool varies_in_time(const Hold& hold);
 bool varies_in_time(const Load& load);
 bool varies_in_time(const Exchange& exchange);
 bool varies_in_time(const HeatModel& model);
+bool holds_vary_in_time(const HeatModel& model);
 
 class Drives {
  public:

@@ -13,7 +13,6 @@
 // so -h/3 C^-1 times that is added; of temperatures that are held, which may be back by then, the mean of it over the step. A
 // coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1) times what they are of D. The global
 // error is carried by the scheme itself as a second column of each product.
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -53,8 +52,7 @@ class StabilisedScheme : public TimeScheme {
         watched_(ledger_nodes(model)) {
     linearise({0, model.initial, {}});
     if (!has_constant_properties(model)) changing_ = std::move(stable);
-    held_conductivity_bends_ = conducts_by_temperature() && std::any_of(model.holds.begin(), model.holds.end(),
-                                                                        [](const Hold& hold) { return varies_in_time(hold); });
+    held_conductivity_bends_ = conducts_by_temperature() && holds_vary_in_time(model);
     resize({&start_, &newer_, &older_});
     if (!sharing_.empty()) resize({&rates_, &beside_});
     if (conducts_by_temperature()) resize({&beside_, &conducted_});

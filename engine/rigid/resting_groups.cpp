@@ -34,8 +34,7 @@ void RestingGroups::begin(const World& world, double time) {
   since_ = time;
   steps_ = 0;
   for (std::size_t i = 0; i < world.free_blocks().size(); ++i) {
-    const btRigidBody* body = world.free_bodies()[i];
-    records_[world.free_blocks()[i]] = {.body = body, .from = body->getWorldTransform()};
+    records_[world.free_blocks()[i]] = {.from = world.free_bodies()[i]->getWorldTransform()};
   }
 }
 
@@ -45,11 +44,11 @@ void RestingGroups::observe(World& world, const Damping& damping, double time) {
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       const BlockId block = world.free_blocks()[i];
       Record& record = records_[block];
-      if (world.asleep(block) || record.body == nullptr) continue;  // or let go in this window
+      if (world.asleep(block) || !record.from) continue;
       ++record.steps;
       const btRigidBody& body = *world.free_bodies()[i];
       record.energy = std::max(record.energy, kinetic_energy(body, world.mass(block)));
-      record.way = std::max(record.way, way_moved(record.from, body.getWorldTransform(), world.radius(block)));
+      record.way = std::max(record.way, way_moved(*record.from, body.getWorldTransform(), world.radius(block)));
       record.force = std::max(record.force, damping.net_force(world, block));
     }
   });

@@ -9,6 +9,7 @@
 // its contacts keep the impulses that bear it: it wakes up in balance.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <LinearMath/btTransform.h>
@@ -26,12 +27,11 @@ class RestingGroups {
 
  private:
   struct Record {
-    int steps = 0;      // awake
-    double energy = 0;  // kinetic, the largest [J]
-    double force = 0;   // net, the largest [N]
-    double way = 0;     // from the beginning, the largest [m]
-    const btRigidBody* body = nullptr;
-    btTransform from;  // at the beginning
+    int steps = 0;                    // awake
+    double energy = 0;                // kinetic, the largest [J]
+    double force = 0;                 // net, the largest [N]
+    double way = 0;                   // from the beginning, the largest [m]
+    std::optional<btTransform> from;  // at the beginning; nothing if it was let go since
   };
   void begin(const World& world, double time);
   [[nodiscard]] bool at_rest(const World& world, const std::vector<BlockId>& group) const;

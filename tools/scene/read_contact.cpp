@@ -16,6 +16,10 @@ thermal::JointLaw read_law(const Checked& part, const thermal::JointLaw& otherwi
 std::optional<contact::Model> read_model(const Checked& part, const thermal::JointLaw& law, Problems& problems) {
   const Checked* model = part.find("model");
   if (model == nullptr) return std::nullopt;
+  const Checked* rules = part.find("joints");  // to which it may fall
+  if (std::holds_alternative<thermal::InsulatingJoint>(law) && (rules == nullptr || rules->items.empty())) {
+    problems.push_back(model->problem(model->text, "is of joints that conduct, and none does", "Take it out"));
+  }
   if (model->text == "overlap") return contact::Model::overlap;
   if (std::holds_alternative<thermal::PerfectJoint>(law)) {
     problems.push_back(model->problem(model->text, "must be overlap for a perfect joint", "Take it out"));
@@ -33,17 +37,11 @@ std::array<IdType, 2> read_pair(const Checked& pair, const std::vector<std::stri
   return ids;
 }
 
-void refuse_model_of_insulating(const Checked& part, Problems& problems) {
-  const Checked& model = part.at("model");
-  problems.push_back(model.problem(model.text, "is of joints that conduct, and none does", "Take it out"));
-}
-
 thermal::JointRule read_rule(const Checked& part, const Checked& scene, Problems& problems) {
   thermal::JointRule rule;
   rule.where = part.where;
   rule.law = read_law(part, thermal::StiffnessFactor{});
   rule.model = read_model(part, rule.law, problems);
-  if (rule.model && std::holds_alternative<thermal::InsulatingJoint>(rule.law)) refuse_model_of_insulating(part, problems);
   if (const Checked* bodies = part.find("bodies")) {
     rule.between = read_pair<BodyId>(*bodies, names_of(scene.at("bodies")), "body", problems);
   } else if (const Checked* materials = part.find("materials")) {
@@ -77,8 +75,6 @@ thermal::JointOptions read_joint(const Checked& scene, Problems& problems) {
   joint.law = read_law(contact, thermal::StiffnessFactor{});
   joint.model = read_model(contact, joint.law, problems);
   for (const Checked& part : contact.at("joints").items) joint.rules.push_back(read_rule(part, scene, problems));
-  if (joint.model && joint.rules.empty() && std::holds_alternative<thermal::InsulatingJoint>(joint.law))
-    refuse_model_of_insulating(contact, problems);
   const Checked& indentation = contact.at("indentation");
   if (indentation.number() != contact::ContactOptions{}.indentation && !uses_semi_springs(joint)) {
     problems.push_back(indentation.problem(indentation.text, "is of semi-springs, and no joint has them", "Take it out"));

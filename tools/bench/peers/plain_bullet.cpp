@@ -18,7 +18,6 @@ namespace scree::bench {
 
 namespace {
 
-constexpr double step = plain_step;
 constexpr int iterations = 20;
 constexpr double margin = 1e-4;  // [m]
 constexpr double near = 1e-3;    // [m]
@@ -111,7 +110,7 @@ class PlainWorld {
 
   // Moves the free blocks down by the clear height; how long they would have fallen [s].
   double skip_fall(double height) {
-    const double time = std::floor(std::sqrt(2 * height / gravity) / step) * step;
+    const double time = std::floor(std::sqrt(2 * height / gravity) / plain_step) * plain_step;
     for (Body& body : bodies_) {
       if (body.body->getInvMass() == 0) continue;
       body.body->translate({0, 0, -gravity * time * time / 2});
@@ -123,7 +122,7 @@ class PlainWorld {
     return time;
   }
 
-  void advance() { world_.stepSimulation(step, 0); }
+  void advance() { world_.stepSimulation(plain_step, 0); }
 
   [[nodiscard]] double rms_speed() const {
     double squares = 0, count = 0;
@@ -191,7 +190,7 @@ PlainFall plain_fall(const mesh::BlockMesh<3>& mesh, double density, double fric
   PlainWorld world(mesh, density, friction);
   PlainFall fall;
   fall.time = world.skip_fall(std::max(0.0, clear_height(mesh) - 2e-3));
-  for (; fall.time < time - step / 2; fall.time += step) world.advance();
+  for (; fall.time < time - plain_step / 2; fall.time += plain_step) world.advance();
   fall.rms_speed = world.rms_speed();
   fall.packing = packing::unmoved(mesh);
   fall.packing.poses = world.poses();
