@@ -31,6 +31,17 @@ bool may_be_hidden(const Contact<dim>& contact) {
   return contact.kind == Kind::overlap && contact.gap > least_gap * contact.length;
 }
 
+template <int dim>
+bool any_may_be_hidden(const Contacts<dim>& contacts) {
+  std::atomic<bool> any = false;
+  for_chunks(contacts.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end && !any.load(std::memory_order_relaxed); ++i) {
+      if (may_be_hidden(contacts[i])) any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any;
+}
+
 // Which faces touch which, of those to which something touches across a gap.
 template <int dim>
 class Partners {
@@ -126,7 +137,7 @@ class Partners {
 
 template <int dim>
 void drop_hidden_overlaps(const Surface<dim>& surface, Contacts<dim>& contacts) {
-  if (std::none_of(contacts.begin(), contacts.end(), may_be_hidden<dim>)) return;
+  if (!any_may_be_hidden(contacts)) return;
   const Partners<dim> partners(surface, contacts);
   std::vector<std::uint8_t> hidden(contacts.size(), 0);
   for_chunks(contacts.size(), [&](Chunk chunk) {

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <Eigen/LU>
+#include <numbers>
 
 namespace scree::contact {
 
@@ -12,163 +10,268 @@ namespace {
 
 constexpr double least_share = 1e-13;  // of the smaller face
 
-// A point of the overlap: its weights on the first face, then on the second.
+// A place in a plane (2-D: on a line).
 template <int dim>
-using Place = Eigen::Matrix<double, 2 * dim, 1>;
+using Seen = std::array<double, dim - 1>;
+
+template <int dim>
+using SeenFace = std::array<Seen<dim>, dim>;
+
+// How points are seen along a normal: carried along it into a plane of two axes (2-D: onto one). Weights on a face are the same
+// as in the plane across the normal, areas larger.
+template <int dim>
+class Sight {
+ public:
+  Sight(const Point<dim>& normal, const Point<dim>& origin) : origin_(origin) {
+    normal.cwiseAbs().maxCoeff(&depth_);
+    for (int i = 0; i < dim; ++i) tilt_[i] = normal[i] / normal[depth_];
+    shrink_ = std::abs(normal[depth_]);
+  }
+
+  // From the origin, so that rounding is that of a face and not of its distance from that of all coordinates.
+  [[nodiscard]] SeenFace<dim> of(const Corners<dim>& corners) const {
+    SeenFace<dim> face;
+    for (int corner = 0; corner < dim; ++corner) {
+      const Point<dim> way = corners[corner] - origin_;
+      for (int i = 0; i < dim - 1; ++i) {
+        const int axis = (depth_ + 1 + i) % dim;
+        face[corner][i] = way[axis] - tilt_[axis] * way[depth_];
+      }
+    }
+    return face;
+  }
+
+  // Across the normal, of what is seen as so large.
+  [[nodiscard]] double area(double seen) const { return shrink_ * std::abs(seen); }
+
+ private:
+  Point<dim> origin_;
+  Point<dim> tilt_;
+  int depth_ = 0;  // the axis that is carried away
+  double shrink_ = 1;
+};
+
+// The length (3-D: twice the area) that the ways from one place span, with its sign: exactly none from or to one place twice.
+template <int dim>
+double spanned(const Seen<dim>& from, const auto&... to) {
+  const auto way = [&](const auto& end, std::size_t i) { return end[i] - from[i]; };
+  if constexpr (dim == 2) {
+    return (way(to, 0), ...);
+  } else {
+    const auto cross = [&](const auto& a, const auto& b) { return way(a, 0) * way(b, 1) - way(a, 1) * way(b, 0); };
+    return cross(to...);
+  }
+}
+
+// The weights of one face's corners at those of another, as seen. All are multiplied by `whole`, which has the sign of the
+// first one's sense of rotation and is (3-D: twice) its area.
+template <int dim>
+struct WeightsAt {
+  double whole = 0;
+  std::array<std::array<double, dim>, dim> of;  // [corner of the one][corner of the other]
+};
+
+template <int dim>
+WeightsAt<dim> weights_at(const SeenFace<dim>& face, const SeenFace<dim>& other) {
+  WeightsAt<dim> weights;
+  if constexpr (dim == 2) {
+    weights.whole = spanned<2>(face[0], face[1]);
+  } else {
+    weights.whole = spanned<3>(face[0], face[1], face[2]);
+  }
+  for (int i = 0; i < dim; ++i) {
+    for (int k = 0; k < dim; ++k) {
+      if constexpr (dim == 2) {
+        weights.of[i][k] = i == 0 ? spanned<2>(other[k], face[1]) : spanned<2>(face[0], other[k]);
+      } else {
+        weights.of[i][k] = spanned<3>(face[(i + 1) % 3], face[(i + 2) % 3], other[k]);
+      }
+    }
+  }
+  return weights;
+}
+
+// Does the other face lie beyond a side of the one, but for less than what counts? Faces that share a side or a corner do, and
+// most pairs are such.
+template <int dim>
+bool lies_beyond_a_side(const WeightsAt<dim>& weights) {
+  constexpr double thin = 0.1 * least_share;  // twice this share of either face may be in common
+  const double sense = weights.whole < 0 ? -1 : 1, whole = std::abs(weights.whole);
+  return std::any_of(weights.of.begin(), weights.of.end(), [&](const std::array<double, dim>& at) {
+    double low = sense * at[0], high = low;
+    for (int k = 1; k < dim; ++k) {
+      low = std::min(low, sense * at[k]);
+      high = std::max(high, sense * at[k]);
+    }
+    return high <= thin * std::min(whole, high - low);
+  });
+}
+
+// A linear function on the first face, by its values at the corners.
+template <int dim>
+using Linear = std::array<double, dim>;
+
+// From here on a place is given by the weights of the first face's corners but the first one.
+template <int dim>
+double value_at(const Linear<dim>& function, const Seen<dim>& place) {
+  double value = function[0];
+  for (int i = 1; i < dim; ++i) value += place[i - 1] * (function[i] - function[0]);
+  return value;
+}
+
+// Weights of the second face's corners, and the gap.
+template <int dim>
+struct OnFirst {
+  std::array<Linear<dim>, dim> on_second;
+  Linear<dim> gap;
+};
+
+template <int dim>
+OnFirst<dim> seen_from_first(const FacePair<dim>& pair, const WeightsAt<dim>& on_second) {
+  OnFirst<dim> functions;
+  const Point<dim>& origin = pair.first[0];  // so that rounding is that of a face
+  for (int i = 0; i < dim; ++i) functions.gap[i] = -pair.normal.dot(pair.first[i] - origin);
+  for (int j = 0; j < dim; ++j) {
+    const double height = pair.normal.dot(pair.second[j] - origin);
+    for (int i = 0; i < dim; ++i) {
+      functions.on_second[j][i] = on_second.of[j][i] / on_second.whole;
+      functions.gap[i] += functions.on_second[j][i] * height;
+    }
+  }
+  return functions;
+}
 
 // Convex, in order. Each of the five lines that clip a triangle adds one corner; were all corners on it but for rounding, half
 // as many again: never more than 19.
 template <int dim>
 class Polygon {
  public:
-  [[nodiscard]] std::size_t size() const { return size_; }
-  const Place<dim>& operator[](std::size_t i) const { return places_[i]; }
-  Place<dim>& operator[](std::size_t i) { return places_[i]; }
-  void push_back(const Place<dim>& place) { places_[size_++] = place; }
-  void assign(const Polygon& other) {
-    size_ = other.size_;
-    std::copy_n(other.places_.begin(), size_, places_.begin());
-  }
+  Polygon() = default;
+  Polygon(const Polygon& other) : size_(other.size_) { std::copy_n(other.places_.begin(), size_, places_.begin()); }
+
+  [[nodiscard]] int size() const { return size_; }
+  const Seen<dim>& operator[](int i) const { return places_[i]; }
+  void add(const Seen<dim>& place) { places_[size_++] = place; }
+  void clear() { size_ = 0; }
 
  private:
-  std::array<Place<dim>, 19> places_;
-  std::size_t size_ = 0;
+  std::array<Seen<dim>, 19> places_;
+  int size_ = 0;
 };
 
-// Area of a face as seen along the normal, with the sign of its sense of rotation.
 template <int dim>
-double seen_area(const Corners<dim>& corners, const Point<dim>& normal) {
-  if constexpr (dim == 2) {
-    const Point<2> way = corners[1] - corners[0];
-    return normal.y() * way.x() - normal.x() * way.y();
-  } else {
-    return 0.5 * normal.dot((corners[1] - corners[0]).cross(corners[2] - corners[0]));
-  }
-}
-
-// How the weight of a corner grows with the place, as seen along the normal, times twice the face's area as seen so.
-template <int dim>
-Point<dim> weight_slope(const Corners<dim>& corners, int corner, const Point<dim>& normal) {
-  if constexpr (dim == 2) {
-    const double sign = corner == 0 ? -1 : 1;
-    return {sign * normal.y(), -sign * normal.x()};
-  } else {
-    return normal.cross(corners[(corner + 2) % 3] - corners[(corner + 1) % 3]);
-  }
-}
-
-// Does a face lie beyond a side of another one, seen along the normal, but for less than what counts? Faces that share a side
-// or a corner do, and most pairs are such.
-template <int dim>
-bool lies_beyond_a_side(const Corners<dim>& face, const Corners<dim>& of, const Point<dim>& normal) {
-  constexpr double thin = 0.1 * least_share;  // twice this share of either face may be in common
-  for (int j = 0; j < dim; ++j) {
-    const Point<dim> slope = weight_slope<dim>(of, j, normal);
-    const Point<dim>& side = of[(j + 1) % dim];
-    const double whole = slope.dot(of[j] - side);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Point<dim>& corner : face) {
-      const double weight = slope.dot(corner - side) / whole;
-      low = std::min(low, weight);
-      high = std::max(high, weight);
-    }
-    if (high <= thin * std::min(1.0, high - low)) return true;
-  }
-  return false;
-}
-
-// The first face, each corner with its weights on the second, as seen along the normal.
-template <int dim>
-Polygon<dim> whole_first(const FacePair<dim>& pair) {
-  const double area = seen_area<dim>(pair.second, pair.normal);
+Polygon<dim> whole_first() {
   Polygon<dim> polygon;
   for (int i = 0; i < dim; ++i) {
-    polygon.push_back(Place<dim>::Unit(i));
-    for (int j = 0; j < dim; ++j) {
-      Corners<dim> part = pair.second;
-      part[j] = pair.first[i];
-      polygon[i][dim + j] = seen_area<dim>(part, pair.normal) / area;
-    }
+    Seen<dim> corner{};
+    if (i > 0) corner[i - 1] = 1;
+    polygon.add(corner);
   }
   return polygon;
 }
 
-// Keeps what lies where the linear function `value` is not negative.
+// Keeps what lies where `offset` and `sign` times a linear function together are not negative.
 template <int dim>
-void clip(Polygon<dim>& polygon, const Place<dim>& value) {
+void clip(Polygon<dim>& polygon, const Linear<dim>& function, double sign, double offset) {
+  if (polygon.size() < dim) return;
+  std::array<double, 19> values;
   bool whole = true;
-  for (std::size_t i = 0; i < polygon.size(); ++i) whole = whole && value.dot(polygon[i]) >= 0;
+  for (int i = 0; i < polygon.size(); ++i) {
+    values[i] = offset + sign * value_at<dim>(function, polygon[i]);
+    whole = whole && values[i] >= 0;
+  }
   if (whole) return;
-  Polygon<dim> kept;
-  const std::size_t sides = dim == 2 ? polygon.size() - 1 : polygon.size();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Place<dim>& from = polygon[i];
-    const double here = value.dot(from);
-    if (here >= 0) kept.push_back(from);
+  const Polygon<dim> all = polygon;
+  const int sides = dim == 2 ? all.size() - 1 : all.size();
+  polygon.clear();
+  for (int i = 0; i < all.size(); ++i) {
+    if (values[i] >= 0) polygon.add(all[i]);
     if (i >= sides) continue;
-    const Place<dim>& to = polygon[(i + 1) % polygon.size()];
-    const double there = value.dot(to);
-    if ((here < 0) != (there < 0)) kept.push_back(from + here / (here - there) * (to - from));
+    const int next = i + 1 == all.size() ? 0 : i + 1;
+    if ((values[i] < 0) == (values[next] < 0)) continue;
+    const double way = values[i] / (values[i] - values[next]);
+    Seen<dim> between = all[i];
+    for (int k = 0; k < dim - 1; ++k) between[k] += way * (all[next][k] - all[i][k]);
+    polygon.add(between);
   }
-  polygon.assign(kept);
-}
-
-// The gap as a function of the weights.
-template <int dim>
-Place<dim> gap_function(const FacePair<dim>& pair) {
-  Place<dim> gap;
-  for (int i = 0; i < dim; ++i) {
-    // From one corner, so that rounding is that of a face and not of its distance from the origin.
-    gap[i] = -pair.normal.dot(pair.first[i] - pair.first[0]);
-    gap[dim + i] = pair.normal.dot(pair.second[i] - pair.first[0]);
-  }
-  return gap;
 }
 
 template <int dim>
-Polygon<dim> overlap(const FacePair<dim>& pair, const Place<dim>& gap, double tolerance) {
-  Polygon<dim> polygon = whole_first(pair);
-  Place<dim> one = Place<dim>::Zero();
-  one.template head<dim>().setOnes();
-  for (int j = 0; j < dim && polygon.size() >= dim; ++j) clip<dim>(polygon, Place<dim>::Unit(dim + j));
-  if (polygon.size() >= dim) clip<dim>(polygon, tolerance * one - gap);
-  if (polygon.size() >= dim) clip<dim>(polygon, tolerance * one + gap);
+Polygon<dim> overlap(const OnFirst<dim>& functions, double tolerance) {
+  Polygon<dim> polygon = whole_first<dim>();
+  for (const Linear<dim>& weight : functions.on_second) clip<dim>(polygon, weight, 1, 0);
+  clip<dim>(polygon, functions.gap, -1, tolerance);
+  clip<dim>(polygon, functions.gap, 1, tolerance);
   return polygon;
 }
 
-// Share of the first face between `dim` places.
+// Places of equal weight that integrate quadratic functions exactly, and the share of the first face that is theirs together.
 template <int dim>
-double share(const std::array<Place<dim>, dim>& places) {
-  Eigen::Matrix<double, dim, dim> weights;
-  for (int i = 0; i < dim; ++i) weights.col(i) = places[i].template head<dim>();
-  if constexpr (dim == 2) {
-    return std::abs(weights(0, 0) - weights(0, 1));
-  } else {
-    return std::abs(weights.determinant());
-  }
+struct Quadrature {
+  std::array<Seen<dim>, dim> places;
+  double share = 0;
+};
+
+// Gauss's rule.
+Quadrature<2> quadrature(const Polygon<2>& segment) {
+  const double middle = 0.5 * (segment[0][0] + segment[1][0]), half = 0.5 * (segment[1][0] - segment[0][0]);
+  const double way = half / std::numbers::sqrt3;
+  return {{{{middle - way}, {middle + way}}}, 2 * std::abs(half)};
 }
 
-// Calls use(part) with the segment, or with the triangles of a fan.
-template <int dim, class Use>
-void for_each_simplex(const Polygon<dim>& polygon, const Use& use) {
-  for (std::size_t i = dim - 1; i < polygon.size(); ++i) {
-    if constexpr (dim == 2) {
-      use(std::array<Place<2>, 2>{polygon[i - 1], polygon[i]});
-    } else {
-      use(std::array<Place<3>, 3>{polygon[0], polygon[i - 1], polygon[i]});
-    }
+// Any polygon has three such places about its mean: at the corners of an equilateral triangle on the circle of the radius root
+// two, seen so that the variance is one all around (Stroud, Mathematics of Computation 14, 1960). That circle lies within every
+// convex figure (Kannan, Lovasz and Simonovits, Discrete & Computational Geometry 13, 1995, theorem 4.1). It touches the sides
+// of a triangle, so the first place is towards a corner: there they are (2/3, 1/6, 1/6).
+Quadrature<3> quadrature(const Polygon<3>& polygon) {
+  using Vector = Eigen::Vector2d;
+  const auto way_to = [&](int i) { return Vector(polygon[i][0] - polygon[0][0], polygon[i][1] - polygon[0][1]); };
+  double share = 0;
+  Vector sum = Vector::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (int i = 2; i < polygon.size(); ++i) {
+    const double piece = std::abs(spanned<3>(polygon[0], polygon[i - 1], polygon[i]));
+    const Vector a = way_to(i - 1), b = way_to(i), both = a + b;
+    share += piece;
+    sum += piece / 3 * both;
+    squares += piece / 12 * (a * a.transpose() + b * b.transpose() + both * both.transpose());
   }
+  Quadrature<3> rule;
+  rule.share = share;
+  if (share == 0) return rule;
+  const Vector mean = sum / share;
+  const Eigen::Matrix2d variance = squares / share - mean * mean.transpose();
+  // Its root: a lower triangle. Of what is as thin as rounding the second column may be nothing.
+  const double along = std::sqrt(std::max(0.0, variance(0, 0)));
+  const double skew = along > 0 ? variance(0, 1) / along : 0;
+  const double across = std::sqrt(std::max(0.0, variance(1, 1) - skew * skew));
+  Vector towards(1, 0);  // the first corner, as seen where the variance is one
+  if (along > 0 && across > 0) {
+    towards.x() = -mean.x() / along;
+    towards.y() = (-mean.y() - skew * towards.x()) / across;
+    towards.normalize();
+  }
+  const Vector aside(-towards.y(), towards.x());
+  const std::array<Vector, 3> corners = {towards, -0.5 * towards + 0.5 * std::numbers::sqrt3 * aside,
+                                         -0.5 * towards - 0.5 * std::numbers::sqrt3 * aside};
+  for (int i = 0; i < 3; ++i) {
+    const Vector far = std::numbers::sqrt2 * corners[i];
+    rule.places[i] = {polygon[0][0] + mean.x() + along * far.x(), polygon[0][1] + mean.y() + skew * far.x() + across * far.y()};
+  }
+  return rule;
 }
 
 template <int dim>
-OverlapPoint<dim> as_point(const Place<dim>& place, double area, double gap) {
+OverlapPoint<dim> as_point(const OnFirst<dim>& functions, const Seen<dim>& place, double area) {
   OverlapPoint<dim> point;
-  for (int i = 0; i < dim; ++i) {
-    point.on_first[i] = place[i];
-    point.on_second[i] = place[dim + i];
+  point.on_first[0] = 1;
+  for (int i = 1; i < dim; ++i) {
+    point.on_first[i] = place[i - 1];
+    point.on_first[0] -= place[i - 1];
   }
+  for (int j = 0; j < dim; ++j) point.on_second[j] = value_at<dim>(functions.on_second[j], place);
   point.area = area;
-  point.gap = gap;
+  point.gap = value_at<dim>(functions.gap, place);
   return point;
 }
 
@@ -177,28 +280,20 @@ OverlapPoint<dim> as_point(const Place<dim>& place, double area, double gap) {
 template <int dim>
 void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<OverlapPoint<dim>>& points) {
   points.clear();
-  if (lies_beyond_a_side<dim>(pair.first, pair.second, pair.normal)) return;
-  if (lies_beyond_a_side<dim>(pair.second, pair.first, pair.normal)) return;
-  const Place<dim> gap = gap_function(pair);
-  const Polygon<dim> polygon = overlap(pair, gap, tolerance);
-  const double first_area = std::abs(seen_area<dim>(pair.first, pair.normal));
-  const double second_area = std::abs(seen_area<dim>(pair.second, pair.normal));
-  double area = 0;
-  for_each_simplex<dim>(polygon, [&](const auto& part) { area += share<dim>(part) * first_area; });
-  if (area <= least_share * std::min(first_area, second_area)) return;
-
-  // Exact for quadratic functions: Gauss's rule on a segment, the points (2/3, 1/6, 1/6) of a triangle.
-  const double near = dim == 2 ? 0.5 + 0.5 / std::sqrt(3.0) : 2.0 / 3;
-  const double far = (1 - near) / (dim - 1);
-  for_each_simplex<dim>(polygon, [&](const auto& part) {
-    const double piece = share<dim>(part) * first_area / dim;
-    if (piece == 0) return;
-    for (int i = 0; i < dim; ++i) {
-      Place<dim> place = Place<dim>::Zero();
-      for (int j = 0; j < dim; ++j) place += (i == j ? near : far) * part[j];
-      points.push_back(as_point<dim>(place, piece, gap.dot(place)));
-    }
-  });
+  const Sight<dim> sight(pair.normal, pair.first[0]);
+  const auto first = sight.of(pair.first), second = sight.of(pair.second);
+  const auto on_second = weights_at<dim>(second, first);
+  if (lies_beyond_a_side<dim>(on_second)) return;
+  const auto on_first = weights_at<dim>(first, second);
+  if (lies_beyond_a_side<dim>(on_first)) return;
+  const OnFirst<dim> functions = seen_from_first(pair, on_second);
+  const Polygon<dim> polygon = overlap(functions, tolerance);
+  if (polygon.size() < dim) return;
+  const Quadrature<dim> rule = quadrature(polygon);
+  const double measure = dim == 2 ? 1 : 0.5;
+  const double first_area = measure * sight.area(on_first.whole), second_area = measure * sight.area(on_second.whole);
+  if (rule.share * first_area <= least_share * std::min(first_area, second_area)) return;
+  for (const Seen<dim>& place : rule.places) points.push_back(as_point(functions, place, rule.share * first_area / dim));
 }
 
 template void overlap_points<2>(const FacePair<2>&, double, std::vector<OverlapPoint<2>>&);

@@ -39,8 +39,8 @@ struct OverlapPoint {
   double gap = 0;   // from the first to the second, negative where they overlap in depth [m]
 };
 
-// Points and shares that integrate products of two linear functions exactly over the part of the overlap in which the gap is at
-// most `tolerance`, either way [m]: two Gauss points in 2-D, three in each triangle of the polygon in 3-D. Overlaps that are
+// Points of equal shares, within the overlap, that integrate products of two linear functions exactly over the part of it in
+// which the gap is at most `tolerance`, either way [m]: two in 2-D, three in 3-D whatever the polygon. Overlaps that are
 // rounding only, 1e-13 of the smaller face, are left out.
 template <int dim>
 void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<OverlapPoint<dim>>& points);

@@ -12,7 +12,7 @@ namespace scree {
 // is copied while it is in the cache, and its memory is used again.
 template <class Items, class Work>
 Items collected(std::size_t count, const Work& work) {
-  constexpr std::size_t group = 64 * chunk_size;
+  constexpr std::size_t group = 16 * chunk_size;
   Items items;
   std::vector<std::vector<typename Items::value_type>> parts(chunk_count(group));
   std::vector<std::size_t> ends(parts.size());

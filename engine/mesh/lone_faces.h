@@ -21,10 +21,10 @@ std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_
     std::uint32_t place;
 
     // Without a branch, and without the call of a function that == of arrays is.
-    [[nodiscard]] bool same_nodes(const Entry& other) const {
+    [[nodiscard]] std::uint8_t other_nodes(const Entry& other) const {
       std::uint32_t different = 0;
       for (std::size_t i = 0; i + 1 < corners; ++i) different |= others[i] ^ other.others[i];
-      return different == 0;
+      return different != 0 ? 1 : 0;
     }
   };
   // Faces that are the same have the same least node and the same sum: some bits of it leave few to compare with.
@@ -42,21 +42,27 @@ std::vector<std::uint32_t> lone_faces(std::size_t nodes, const ForEachFace& for_
     for (std::size_t i = 0; i + 1 < corners; ++i) entry.others[i] = face[i + 1];
     entry.place = place;
   });
-  // Each end has moved from where its group's entries begin to where they end.
-  std::vector<char> lone(entries.size(), true);
+  // Each end has moved from where its group's entries begin to where they end. All without branches: half of the faces compared
+  // are the same, which no one could foretell.
+  std::vector<std::uint8_t> lone(entries.size(), 1);
   std::uint32_t begin = 0;
   for (std::size_t g = 0; g < groups; ++g) {
     for (std::uint32_t i = begin; i < end[g]; ++i) {
       for (std::uint32_t j = begin; j < i; ++j) {
-        if (entries[i].same_nodes(entries[j])) lone[entries[i].place] = lone[entries[j].place] = false;
+        const std::uint8_t other = entries[i].other_nodes(entries[j]);
+        lone[entries[i].place] &= other;
+        lone[entries[j].place] &= other;
       }
     }
     begin = end[g];
   }
-  std::vector<std::uint32_t> alone;
+  std::vector<std::uint32_t> alone(lone.size());
+  std::size_t count = 0;
   for (std::uint32_t place = 0; place < lone.size(); ++place) {
-    if (lone[place]) alone.push_back(place);
+    alone[count] = place;
+    count += lone[place];
   }
+  alone.resize(count);
   return alone;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +70,70 @@ TEST(Overlap, IntegratesProductsOfLinearFunctionsOverANestedTriangle) {
       }
     }
   }
+}
+
+// The integral of f over the convex polygon by the middles of the sides of its triangles, exact for quadratic functions.
+double integral(const std::vector<Point<3>>& corners, const auto& f) {
+  double sum = 0;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const Point<3>&a = corners[0], &b = corners[i - 1], &c = corners[i];
+    sum += 0.5 * (b - a).cross(c - a).norm() / 3 * (f(0.5 * (a + b)) + f(0.5 * (b + c)) + f(0.5 * (c + a)));
+  }
+  return sum;
+}
+
+Point<3> where(const Corners<3>& corners, const std::array<double, 3>& weights) {
+  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+}
+
+// Two equilateral triangles about one centre, turned by 180 degrees: a regular hexagon. Stretched, so that no way is like
+// another.
+TEST(Overlap, IntegratesProductsOfLinearFunctionsOverAHexagonByThreePointsWithinIt) {
+  const auto placed = [](double angle, double radius) {
+    return Point<3>(3 * radius * std::cos(angle) + 0.4 * radius * std::sin(angle), 0.5 * radius * std::sin(angle), 0);
+  };
+  Corners<3> first, second;
+  for (int i = 0; i < 3; ++i) first[i] = placed(2 * M_PI * i / 3, 1), second[i] = placed(M_PI - 2 * M_PI * i / 3, 1);
+  std::vector<Point<3>> hexagon;
+  for (int i = 0; i < 6; ++i) hexagon.push_back(placed(M_PI * (2 * i + 1) / 6, 1 / std::sqrt(3.0)));
+
+  std::vector<OverlapPoint<3>> points;
+  overlap_points(opposed_faces<3>(first, {0, 0, 1}, second, {0, 0, -1}).value(), 0.01, points);
+  ASSERT_EQ(points.size(), 3);
+  for (const auto& point : points) {
+    EXPECT_NEAR((where(first, point.on_first) - where(second, point.on_second)).norm(), 0, 1e-14);
+    for (int i = 0; i < 3; ++i) EXPECT_GT(std::min(point.on_first[i], point.on_second[i]), 0);
+  }
+  for (const auto& f : {+[](const Point<3>&) { return 1.0; }, +[](const Point<3>& at) { return at.x() * at.x(); },
+                        +[](const Point<3>& at) { return at.x() * at.y() + at.x(); },
+                        +[](const Point<3>& at) { return at.y() * at.y() - at.y(); }}) {
+    double sum = 0;
+    for (const auto& point : points) sum += point.area * f(where(first, point.on_first));
+    EXPECT_NEAR(sum, integral(hexagon, f), 1e-14);
+  }
+}
+
+// Triangles at random: whatever they have in common, the points lie in both, and each has its share.
+TEST(Overlap, HasItsPointsWithinBothFaces) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  std::vector<OverlapPoint<3>> points;
+  int overlaps = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Corners<3> first, second;
+    for (int i = 0; i < 3; ++i) {
+      first[i] = at(anywhere(random), anywhere(random), 0);
+      second[i] = at(anywhere(random), anywhere(random), 0);
+    }
+    overlap_points(opposed_faces<3>(first, {0, 0, 1}, second, {0, 0, -1}).value(), 0.01, points);
+    overlaps += points.empty() ? 0 : 1;
+    for (const auto& point : points) {
+      EXPECT_EQ(point.area, points[0].area);
+      for (int i = 0; i < 3; ++i) EXPECT_GT(std::min(point.on_first[i], point.on_second[i]), 0);
+      EXPECT_NEAR((where(first, point.on_first) - where(second, point.on_second)).norm(), 0, 1e-12);
+    }
+  }
+  EXPECT_GT(overlaps, 1000);
 }
 
 TEST(Overlap, IntegratesProductsOfLinearFunctionsOverAPartOfASegment) {
