@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/base/check.h"
+#include "engine/base/heap_pages.h"
 #include "engine/base/key_reference.h"
 #include "engine/base/nearest.h"
 #include "engine/base/progress.h"
@@ -249,6 +250,7 @@ int command(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  scree::keep_heap_in_huge_pages();
   try {
     return command(argc, argv);
   } catch (...) {
