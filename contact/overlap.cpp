@@ -153,7 +153,7 @@ void overlap_points(const FacePair<dim>& pair, double tolerance, std::vector<Ove
   const OnFirst<dim> functions = seen_from_first(pair, on_second);
   const Polygon<dim> polygon = overlap(functions, tolerance);
   if (polygon.size() < dim) return;
-  const Quadrature<dim> rule = quadrature(polygon);
+  const Quadrature<dim> rule = quadrature(polygon);  // places being weights, a size of 1 is all of the first face
   const double measure = dim == 2 ? 1 : 0.5;
   const double first_area = measure * sight.area(on_first.whole), second_area = measure * sight.area(on_second.whole);
   if (rule.size * first_area <= least_share * std::min(first_area, second_area)) return;
