@@ -15,15 +15,12 @@ namespace {
 constexpr double least_gap = 1e-4;  // of the contact's length
 constexpr double rounding = 1e-9;   // likewise
 
-// Is a point outside the box about these corners and what is so near?
+// Is a point further than that from the box about these corners?
 template <int dim>
 bool beside(const Corners<dim>& corners, const Point<dim>& point, double near) {
-  Point<dim> low = corners[0], high = corners[0];
-  for (int i = 1; i < dim; ++i) {
-    low = low.cwiseMin(corners[i]);
-    high = high.cwiseMax(corners[i]);
-  }
-  return ((point - low).array() < -near).any() || ((point - high).array() > near).any();
+  Aabb<dim> box;
+  for (const Point<dim>& corner : corners) box.extend(corner);
+  return box.squaredExteriorDistance(point) > near * near;
 }
 
 template <int dim>

@@ -82,10 +82,6 @@ double integral(const std::vector<Point<3>>& corners, const auto& f) {
   return sum;
 }
 
-Point<3> where(const Corners<3>& corners, const std::array<double, 3>& weights) {
-  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
-}
-
 // Two equilateral triangles about one centre, turned by 180 degrees: a regular hexagon. Stretched, so that no way is like
 // another.
 TEST(Overlap, IntegratesProductsOfLinearFunctionsOverAHexagonByThreePointsWithinIt) {
@@ -101,14 +97,14 @@ TEST(Overlap, IntegratesProductsOfLinearFunctionsOverAHexagonByThreePointsWithin
   overlap_points(opposed_faces<3>(first, {0, 0, 1}, second, {0, 0, -1}).value(), 0.01, points);
   ASSERT_EQ(points.size(), 3);
   for (const auto& point : points) {
-    EXPECT_NEAR((where(first, point.on_first) - where(second, point.on_second)).norm(), 0, 1e-14);
+    EXPECT_NEAR((weighted_point<3>(first, point.on_first) - weighted_point<3>(second, point.on_second)).norm(), 0, 1e-14);
     for (int i = 0; i < 3; ++i) EXPECT_GT(std::min(point.on_first[i], point.on_second[i]), 0);
   }
   for (const auto& f : {+[](const Point<3>&) { return 1.0; }, +[](const Point<3>& at) { return at.x() * at.x(); },
                         +[](const Point<3>& at) { return at.x() * at.y() + at.x(); },
                         +[](const Point<3>& at) { return at.y() * at.y() - at.y(); }}) {
     double sum = 0;
-    for (const auto& point : points) sum += point.area * f(where(first, point.on_first));
+    for (const auto& point : points) sum += point.area * f(weighted_point<3>(first, point.on_first));
     EXPECT_NEAR(sum, integral(hexagon, f), 1e-14);
   }
 }
@@ -130,7 +126,7 @@ TEST(Overlap, HasItsPointsWithinBothFaces) {
     for (const auto& point : points) {
       EXPECT_EQ(point.area, points[0].area);
       for (int i = 0; i < 3; ++i) EXPECT_GT(std::min(point.on_first[i], point.on_second[i]), 0);
-      EXPECT_NEAR((where(first, point.on_first) - where(second, point.on_second)).norm(), 0, 1e-12);
+      EXPECT_NEAR((weighted_point<3>(first, point.on_first) - weighted_point<3>(second, point.on_second)).norm(), 0, 1e-12);
     }
   }
   EXPECT_GT(overlaps, 1000);
