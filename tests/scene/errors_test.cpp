@@ -34,7 +34,6 @@ TEST(SceneErrors, AllAreListedInTheOrderOfTheFile) {
                        "bodies:\n"
                        "  b: {material: oer, mesh_size: 3 kg, blocks: per_elemnt, sphere: {diameter: 1, centre: [0, 0]}}\n"
                        "heat: {initial: 25 C, until: 12 m}\n"),
-            "s.yaml:1:1: output is missing (must be a map of keys)\n"
             "s.yaml:2:9: materials.ore.desnity is unknown (no key of materials.ore). Did you mean density?\n"
             "s.yaml:2:38: materials.ore.conductivity is -2.0 (must be positive, W/m/K). Did you mean 2.0?\n"
             "s.yaml:4:17: bodies.b.material is oer (must be a material of this scene). Did you mean ore?\n"

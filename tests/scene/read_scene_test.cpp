@@ -90,6 +90,15 @@ TEST(ReadScene, TheEffectiveSceneShowsEveryDefault) {
   }
 }
 
+TEST(ReadScene, WithoutAnIntervalThereAreTwentyOutputs) {
+  const Scene scene = scene_of(whole_scene, {"output=null"});
+  EXPECT_EQ(scene.heat->time.output_every, 2160);
+  EXPECT_THAT(scene.effective, HasSubstr("every: 2160 s"));
+  EXPECT_EQ(values_of(scene_of(scene.effective)), values_of(scene));
+  EXPECT_EQ(scene_of(whole_scene, {"output.every=null", "output.frames_every=7 min"}).heat->time.output_every, 420);
+  EXPECT_EQ(scene_of(whole_scene, {"output.every=1 min", "output.frames_every=7 min"}).heat->time.output_every, 60);
+}
+
 TEST(ReadScene, SectionsThatAreAbsentAreNotModelled) {
   const Scene scene =
       scene_of("materials: {a: {}}\nbodies: {b: {material: a, mesh_size: 1, sphere: {diameter: 1, centre: [0, 0, 0]}}}\n");

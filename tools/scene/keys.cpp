@@ -288,9 +288,9 @@ Keys contact_keys() {
 
 Keys output_keys() {
   return {
-      row("output", section, "What a run writes of the temperatures.").required().only({Condition{"heat"}}),
+      row("output", section, "What a run writes of the temperatures.").fallback("{}").only({Condition{"heat"}}),
       row("output.every", quantity, "Time between the rows of probes.csv. Steps may be longer.", q::time, positive)
-          .required()
+          .otherwise("output.frames_every, or else a twentieth of heat.until")
           .only({Condition{.key = "heat.steady", .word = "true", .absent = true}}),
       row("output.frames_every", quantity, "Time between the frames of heat.pvd, a multiple of output.every.", q::time,
           positive)

@@ -2,9 +2,32 @@
 
 #include <fmt/format.h>
 
+#include "tools/scene/keys.h"
 #include "tools/scene/sections.h"
 
 namespace scree {
+
+// So many frames show how heat spreads, and take less than a tenth of the stage that they are of (tools/bench/README.md).
+constexpr int intervals_by_default = 20;
+
+void fill_in_interval(Checked& checked) {
+  const Checked& until = checked.at("heat").at("until");
+  if (!until.sound) return;
+  for (CheckedEntry& section : checked.entries) {
+    Checked& output = section.value;
+    if (section.name != "output" || output.find("every") != nullptr) continue;
+    const Checked* frames = output.find("frames_every");
+    Checked every = frames == nullptr ? until : *frames;
+    every.key = scene_keys().find("output.every");
+    every.path = "output.every";
+    every.given = false;
+    if (frames == nullptr) {
+      every.numbers = {until.number() / intervals_by_default};
+      every.text = fmt::format("{} s", every.number());
+    }
+    output.entries.push_back({"every", section.where, std::move(every)});
+  }
+}
 
 double read_frames_every(const Checked& output, Problems& problems) {
   const Checked* frames = output.find("frames_every");
