@@ -176,8 +176,8 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
     } else {
       set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
     }
+    drop_hidden_overlaps(surface, set.contacts);
   }
-  drop_hidden_overlaps(surface, set.contacts);
   if constexpr (dim == 3) see_both_diagonals(mesh, set.contacts);
   return set;
 }

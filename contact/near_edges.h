@@ -6,6 +6,7 @@
 
 #include "contact/edge_bounds.h"
 #include "contact/near_shells.h"
+#include "contact/touch.h"
 
 namespace scree::contact {
 
@@ -45,6 +46,36 @@ SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> standing_out(const
   return standing;
 }
 
+// Of each pair of shells the pairs of edges that are known to end in one corner, and so do not touch.
+template <class Wide>
+SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> ending_together(const ShellPairs<3, Wide>& pairs) {
+  constexpr float axis = 0.57F * static_cast<float>(same_corner);  // less than the root of a third
+  const Wide most_apart = in_eights<Wide>(
+      [&](int k) SCREE_INLINED { return axis * std::min(pairs.first.length, pairs.second(k).length) - pairs.rounding(k); });
+  std::array<Wide, 3> seconds;
+  for (int i = 0; i < 3; ++i) {
+    seconds[i] = in_eights<Wide>([&](int k) SCREE_INLINED {
+      return pairs.second(k).at[i] + static_cast<float>(pairs.second(k).centre[i] - pairs.first.centre[i]);
+    });
+  }
+  std::array<EdgePairs, ShellPairs<3, Wide>::most> together{};
+  // Two vertices of the first at once, in halves.
+  for_each_constant<2>([&](auto two) SCREE_INLINED {
+    unsigned there = ~0u;  // those of the second that are at their places
+    for (int i = 0; i < 3; ++i) {
+      const Wide firsts = in_halves<Wide>([&](int) SCREE_INLINED { return float{pairs.first.at[i][2 * two]}; },
+                                          [&](int) SCREE_INLINED { return float{pairs.first.at[i][2 * two + 1]}; });
+      there &= bits(at_most(absolute(seconds[i] - firsts), most_apart));
+    }
+    pairs.for_each([&](auto k) SCREE_INLINED {
+      const unsigned even = there >> 8 * k, odd = even >> lane_count;
+      together[k] |= (pairs_of_first(edges_at[1u << 2 * two]) & pairs_of_second(edges_at[even & 0xfu])) |
+                     (pairs_of_first(edges_at[2u << 2 * two]) & pairs_of_second(edges_at[odd & 0xfu]));
+    });
+  });
+  return together;
+}
+
 // Of each pair of shells the pairs of edges that may touch.
 template <class Wide>
 SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> near_edges(const ShellPairs<3, Wide>& pairs) {
@@ -68,6 +99,11 @@ SCREE_INLINE std::array<EdgePairs, ShellPairs<3, Wide>::most> near_edges(const S
               pairs_of_second(edges_of_faces[pairs.second(k).faces] & ~edges_beyond(2 * k));
     asked |= near[k] != 0 && pairs.second(k).whole;
   });
+  // Corners are rarely one but beside faces that are.
+  if (pairs.first.open != pairs.first.faces) {
+    const auto together = ending_together(pairs);
+    pairs.for_each([&](auto k) SCREE_INLINED { near[k] &= ~together[k]; });
+  }
   // Both must stand out from the whole of their blocks.
   if (!asked || !pairs.first.whole) return near;
   const auto standing = standing_out(pairs);

@@ -30,6 +30,9 @@ struct Shares {
 // Appends what the semi-springs of the one may touch of the other, and the other way round.
 template <int dim, class Wide>
 SCREE_INLINE void add_near_springs(const ShellPairs<dim, Wide>& pairs, const Shares& shares, std::vector<NearSprings>& near) {
+  bool open = pairs.first.open != 0;
+  pairs.for_each([&](auto k) SCREE_INLINED { open |= pairs.second(k).open != 0; });
+  if (!open) return;
   const auto& heights = pairs.heights;
   Wide high = heights[0], sum = high;
   for (int v = 1; v <= dim; ++v) {
@@ -58,14 +61,14 @@ SCREE_INLINE void add_near_springs(const ShellPairs<dim, Wide>& pairs, const Sha
   const Wide bounds = least_in_fours(springs) - rounding;
   std::array<float, count_of<Wide>> bound;
   __builtin_memcpy(&bound, &bounds, sizeof bound);
-  const auto add = [&](int four, std::uint32_t own, std::uint32_t other) SCREE_INLINED {
-    if ((may_touch >> lane_count * four & 0xfu) == 0) return;
+  const auto add = [&](int four, const Shell<dim>& shell, std::uint32_t own, std::uint32_t other) SCREE_INLINED {
+    if ((may_touch >> lane_count * four & 0xfu) == 0 || shell.open == 0) return;
     const bool all = std::popcount(close >> lane_count * four & ((2u << dim) - 1)) >= dim;
     near.push_back({own, {other & 0x7fffffffu, all ? 1u : 0u, bound[lane_count * four]}});
   };
   pairs.for_each([&](auto k) SCREE_INLINED {
-    add(2 * k + 1, pairs.first_place, pairs.second_place(k));
-    add(2 * k, pairs.second_place(k), pairs.first_place);
+    add(2 * k + 1, pairs.first, pairs.first_place, pairs.second_place(k));
+    add(2 * k, pairs.second(k), pairs.second_place(k), pairs.first_place);
   });
 }
 

@@ -128,6 +128,7 @@ Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, con
     }
     place<dim>(vertices, options, shell);
   });
+  shell.length = static_cast<float>(surface.lengths[first]);
   shell.reach = static_cast<float>(options.tolerance * surface.lengths[first]);
   shell.block = surface.faces[first].block;
   shell.whole = is_whole(surface.mesh, shell.block);
@@ -136,6 +137,7 @@ Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, con
   for (std::size_t f = first.index(); f < end.index(); ++f) {
     const int plane = opposite_vertex(surface, FaceId{f});
     shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << plane);
+    shell.open = shell.faces;
     if constexpr (dim == 3) {
       if (with_edges) add_edges(surface, plane, FaceId{f}, shell);
     }

@@ -25,9 +25,11 @@ struct Shell {
   float radius = 0;         // no vertex is further from the centre [m]
   float reach = 0;          // tolerance, over the faces' semi-springs [m]
   float shift = 0;          // no semi-edge is further from its edge [m]
+  float length = 0;         // characteristic, of the element [m]
   BlockId block;
   FaceId first;            // the boundary faces are consecutive, in the order of their planes
   std::uint8_t faces = 0;  // bit i: face i is a boundary face
+  std::uint8_t open = 0;   // of these: the targets of its semi-springs are not known yet
   bool whole = false;      // the block has no other element
   std::uint8_t edges = 0;  // 3-D. Bit i: edge i of tetrahedron.h is a target edge that is searched here; each is, once
   std::array<EdgeId, dim == 3 ? 6 : 0> targets;  // the ids of those

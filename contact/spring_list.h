@@ -54,7 +54,7 @@ class SpringList {
   void add(const Shell<dim>& shell) {
     unsigned asked = 0;
     for (int f = 0; f <= dim; ++f) {
-      if ((shell.faces >> f & 1u) != 0) asked |= (all_vertices & ~(1u << f)) << lane_count * f;
+      if ((shell.open >> f & 1u) != 0) asked |= (all_vertices & ~(1u << f)) << lane_count * f;
     }
     shells_.push_back({&shell, asked});
   }

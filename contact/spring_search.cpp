@@ -91,6 +91,7 @@ class SpringSearch {
   void list_possible(std::size_t begin, bool close) {
     widely([&](auto bytes) SCREE_INLINED {
       for (std::size_t i = 0; i < list_.shells(); ++i) {
+        if (list_.springs_of(i) == 0) continue;
         near_.for_each(table_.shells, begin + i, close, list_.limit_of_shell(i), [&](std::size_t place) SCREE_INLINED {
           list_.template look_at<LanesIn<bytes>>(i, table_.shells[place], possible_,
                                                  [&](FaceId face) SCREE_INLINED { fetch(face); });
@@ -230,24 +231,20 @@ class SpringSearch {
 }  // namespace
 
 template <int dim>
-SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       Parts<NearSprings>& near) {
+void find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
+                         Parts<NearSprings>& near, SpringTargets<dim>& targets) {
   const NearShells near_shells(table.shells.size(), near);
   near.clear();
-  const std::size_t springs = surface.faces.size() * dim;
-  SpringTargets<dim> targets{LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
-  targets.touches.resize(springs);
   for_chunks(table.shells.size(), [&](Chunk chunk) {
     SpringSearch<dim> search(surface, options, table, near_shells, targets);
     constexpr std::size_t together = SpringList<dim>::most_shells;
     for (std::size_t i = chunk.begin; i < chunk.end; i += together) search.find(i, std::min(i + together, chunk.end));
   });
-  return targets;
 }
 
-#define SCREE_INSTANTIATE(dim)                                                                                             \
-  template SpringTargets<dim> find_spring_targets<dim>(const Surface<dim>&, const ContactOptions&, const ShellTable<dim>&, \
-                                                       Parts<NearSprings>&);
+#define SCREE_INSTANTIATE(dim)                                                                               \
+  template void find_spring_targets<dim>(const Surface<dim>&, const ContactOptions&, const ShellTable<dim>&, \
+                                         Parts<NearSprings>&, SpringTargets<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

@@ -25,9 +25,10 @@ struct SpringTargets {
   VectorWrittenLater<SpringTouch<dim>> touches{};  // of those that have a target
 };
 
-// `near`: all pairs of shells of the table that are near, emptied as soon as they are read. See target_search.h.
+// Finds those that are not known yet. `near`: all pairs of shells of the table that are near, emptied as soon as they are read.
+// See target_search.h.
 template <int dim>
-SpringTargets<dim> find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
-                                       Parts<NearSprings>& near);
+void find_spring_targets(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table,
+                         Parts<NearSprings>& near, SpringTargets<dim>& targets);
 
 }  // namespace scree::contact

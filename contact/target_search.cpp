@@ -4,6 +4,7 @@
 #include "contact/near_edges.h"
 #include "contact/near_springs.h"
 #include "contact/spring_search.h"
+#include "contact/twin_faces.h"
 
 namespace scree::contact {
 
@@ -15,11 +16,31 @@ struct Near {
   std::vector<NearEdges> edges;  // empty in 2-D
 };
 
+// Which faces of the shells have their targets.
+template <int dim>
+void close_shells(const SpringTargets<dim>& targets, ShellTable<dim>& table) {
+  for_chunks(table.shells.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      Shell<dim>& shell = table.shells[i];
+      for (int f = 0; f <= dim; ++f) {
+        const bool known = (shell.faces >> f & 1u) != 0 && targets.faces[shell.face(f).index() * dim].valid();
+        shell.open = static_cast<std::uint8_t>(shell.open & ~((known ? 1u : 0u) << f));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
-  const ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
+  Targets<dim> targets;
+  const std::size_t springs = surface.faces.size() * dim;
+  targets.of_springs = {LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
+  targets.of_springs.touches.resize(springs);
+  const bool some_known = take_twins(surface, options, targets.of_springs);
+  ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
+  if (some_known) close_shells(targets.of_springs, table);
   const std::size_t chunks = chunk_count(table.shells.size());
   Parts<NearSprings> near_springs(chunks);
   Parts<NearEdges> near(chunks);
@@ -39,7 +60,7 @@ Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& opt
         near_springs.put(chunk, found.springs);
         near.put(chunk, found.edges);
       });
-  Targets<dim> targets{find_spring_targets(surface, options, table, near_springs), {}};
+  find_spring_targets(surface, options, table, near_springs, targets.of_springs);
   if constexpr (dim == 3) targets.of_edges = find_edge_targets(surface, options, table, near, targets.of_springs.blocks);
   return targets;
 }

@@ -50,6 +50,13 @@ inline constexpr std::array<unsigned, 16> edges_among = [] {
   return edges;
 }();
 
+// Of a set of vertices the edges that end in one of them, one bit each.
+inline constexpr std::array<unsigned, 16> edges_at = [] {
+  std::array<unsigned, 16> edges{};
+  for (unsigned vertices = 0; vertices < 16; ++vertices) edges[vertices] = 63u & ~edges_among[15u & ~vertices];
+  return edges;
+}();
+
 // Is the cross product of the outward normals of an edge's faces, that beside its first vertex aside with the second's, along
 // the edge (in a positively oriented tetrahedron)? Or against it.
 constexpr bool turns_along(const ElementEdge& edge) {

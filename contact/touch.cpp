@@ -103,7 +103,7 @@ std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOpti
   if (std::abs(gap) > tolerance && std::abs(true_gap) > tolerance) return std::nullopt;
 
   // Edges that end in one corner, as in a mesh that conforms, cross there by rounding at most.
-  const double rounding = 1e-9 * surface.lengths[owner];
+  const double rounding = same_corner * surface.lengths[owner];
   for (const Point<3>* mine : {&own[side], &own[(side + 1) % 3]}) {
     for (const Point<3>* its : {&target_start, &target_end}) {
       if ((*mine - *its).squaredNorm() <= rounding * rounding) return std::nullopt;

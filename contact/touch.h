@@ -66,9 +66,14 @@ struct EdgeTouch {
   double on_target = 0;  // fraction of the way on the target edge
 };
 
+// Corners of two blocks that are no further from each other, in characteristic lengths of the owner, are one: more than the
+// rounding of a file, a hundredth of the tolerance.
+inline constexpr double same_corner = 1e-4;
+
 // Touching means: the semi-edge crosses the target edge between the ends of both, the strip between the semi-edge and the edge
-// it stands for is within tolerance of it, and along the gap both edges stand out from their blocks. The target edge must come
-// within tolerance of the owner's face, and that face within the larger tolerance of the first face at the target edge.
+// it stands for is within tolerance of it, the edges do not end in one corner, and along the gap both stand out from their
+// blocks. The target edge must come within tolerance of the owner's face, and that face within the larger tolerance of the
+// first face at the target edge.
 std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,
                                     EdgeId target);
 

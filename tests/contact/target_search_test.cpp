@@ -157,5 +157,17 @@ TEST(FindTargets, MissesNothingInALatticeOfClosedJoints) {
   compare(each_its_own<3>(simplices), {}, 300, 0);
 }
 
+// Some faces have the same corners, others lie a little apart, and one block is there twice.
+TEST(FindTargets, MissesNothingInALatticeOfWhichAPartHasMoved) {
+  BlockOf<3> simplices;
+  for (int i = 0; i < 8; ++i) {
+    const double moved = i % 3 == 0 ? 3e-3 * i : 0;
+    const auto cell = box<3>(at(i % 2 + moved, i / 2 % 2 + 0.7 * moved, i / 4 - 0.4 * moved), at(1, 1, 1));
+    simplices.insert(simplices.end(), cell.begin(), cell.end());
+  }
+  simplices.push_back(simplices[7]);
+  compare(each_its_own<3>(simplices), {}, 300, 0);
+}
+
 }  // namespace
 }  // namespace scree::contact
