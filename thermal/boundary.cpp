@@ -212,7 +212,7 @@ class Applier {
     }
     const double area = std::accumulate(faces.shares.begin(), faces.shares.end(), 0.0);
     for (double& share : faces.shares) share /= area;
-    model_.loads.push_back({boundary.name, std::move(faces), flow});
+    model_.loads.push_back({boundary.name, std::move(faces), flow, false, area});
   }
 
   void nothing_there(const SourceLocation& where, const std::string& list, const std::string& name, const Region& region,

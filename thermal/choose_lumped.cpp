@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <span>
 
@@ -154,7 +155,21 @@ class Chooser {
   struct Patch {
     PatchMoments<dim> moments;
     double conductance = 0;  // [W/K]
-    double area = 0;         // in which it touches; 0 where nothing is known of it [m2]
+    double area = 0;         // in which heat passes mostly; 0 if not through a surface [m2]
+    double volume = 0;       // in which it is set free mostly; 0 if not in a volume [m3]
+    bool load = false;       // heat that comes whatever the temperature
+  };
+
+  // In how much of the sizes of some parts heat is mostly set free: of each its heat h and size s, (sum h)^2 / sum h^2/s.
+  struct Extent {
+    double heat = 0, by_size = 0;
+
+    void add(double with_heat, double size) {
+      if (size == 0) return;
+      heat += with_heat;
+      by_size += with_heat * with_heat / size;
+    }
+    [[nodiscard]] double size() const { return by_size > 0 ? heat * heat / by_size : 0; }
   };
 
   [[nodiscard]] LumpedBlock described(BlockId b, const Entries& entries) const {
@@ -168,17 +183,28 @@ class Chooser {
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
-      const Patch patch = patch_of({first, last}, inside.centroid());
-      const double constriction = patch.area > 0 ? inside.constriction(patch.area) : 0;
-      const double bulk = inside.bulk(patch.moments);
       PatchResistance& largest = of_kind(first->patch, block);
-      largest = {std::max(largest.bulk, bulk), std::max(largest.constriction, constriction)};
-      block.biot += patch.conductance * bulk;
-      constricted = std::max(constricted, patch.conductance * constriction);
+      for (const Patch& patch : patches_of({first, last}, inside.centroid())) {
+        const double constriction = constriction_of(patch, inside);
+        const double bulk = inside.bulk(patch.moments);
+        largest = {std::max(largest.bulk, bulk), std::max(largest.constriction, constriction)};
+        block.biot += patch.conductance * bulk;
+        constricted = std::max(constricted, patch.conductance * constriction);
+      }
       first = last;
     }
     block.biot += constricted;
     return block;
+  }
+
+  // A load's heat is as dense in the middle of its patch as at the rim, where a joint's crowds: the middle of a disc is 4/pi
+  // times as warm as one disc at one temperature would be (Carslaw and Jaeger, Conduction of Heat in Solids, 1959,
+  // section 8.2). And it may lie in the corner of a face, where a quarter of the half space is left for the flow lines: twice
+  // as warm, by its images beyond the two sides.
+  [[nodiscard]] static double constriction_of(const Patch& patch, const InnerResistance<dim>& inside) {
+    constexpr double of_load = 2 * 4 / std::numbers::pi;
+    if (patch.volume > 0) return inside.constriction_within(patch.volume);
+    return patch.area > 0 ? (patch.load ? of_load : 1) * inside.constriction(patch.area) : 0;
   }
 
   // Of what is cold and hot at the start, within and outside: a block's temperature may go anywhere between.
@@ -223,12 +249,13 @@ class Chooser {
     return patch < mesh_.blocks.size() + model_.exchanges.size() ? block.exchange : block.load;
   }
 
-  [[nodiscard]] Patch patch_of(const Entries& entries, const Point<dim>& centroid) const {
+  // One, or of a load that heats one part and cools another those two.
+  [[nodiscard]] std::vector<Patch> patches_of(const Entries& entries, const Point<dim>& centroid) const {
     const std::size_t patch = entries.begin()->patch;
-    if (patch < mesh_.blocks.size()) return contact_patch(entries, centroid);
+    if (patch < mesh_.blocks.size()) return {contact_patch(entries, centroid)};
     const std::size_t exchange = patch - mesh_.blocks.size();
-    return exchange < model_.exchanges.size() ? exchange_patch(exchange, entries, centroid)
-                                              : load_patch(exchange - model_.exchanges.size(), entries, centroid);
+    if (exchange < model_.exchanges.size()) return {exchange_patch(exchange, entries, centroid)};
+    return load_patches(exchange - model_.exchanges.size(), entries, centroid);
   }
 
   // Two faces that lie on each other are found from both sides; where only edges meet, theirs is the area.
@@ -254,6 +281,8 @@ class Chooser {
     const ExchangeRates& rates = start_.exchanges[e];
     Patch patch;
     PatchMoments<dim> by_area;  // what does not conduct yet may do so later
+    double area = 0;
+    Extent extent;
     for (const Entry& entry : entries) {
       const NodeId node = exchange.on.nodes[entry.item];
       const double hotter = std::max(model_.initial[node.value()], rates.surroundings[entry.item]);
@@ -261,26 +290,41 @@ class Chooser {
       patch.moments.add(mesh_.nodes[node] - centroid, conductance);
       by_area.add(mesh_.nodes[node] - centroid, exchange.on.shares[entry.item]);
       patch.conductance += conductance;
-      patch.area += exchange.on.shares[entry.item];
+      area += exchange.on.shares[entry.item];
+      extent.add(conductance, exchange.on.shares[entry.item]);
     }
+    patch.area = patch.conductance == 0 ? area : extent.size();
     if (patch.conductance == 0) patch.moments = by_area;
     return patch;
   }
 
-  // Of no conductance: it enters the error, not the Biot number. Where it is strong is seen at the start; what is zero then
-  // counts as alike everywhere.
-  [[nodiscard]] Patch load_patch(std::size_t l, const Entries& entries, const Point<dim>& centroid) const {
+  // Of no conductance: they enter the error, not the Biot number. Where a load is strong is seen at the start; one that is zero
+  // then counts as alike everywhere.
+  [[nodiscard]] std::vector<Patch> load_patches(std::size_t l, const Entries& entries, const Point<dim>& centroid) const {
     const Load& load = model_.loads[l];
+    std::vector<double> densities;
+    for (const Entry& entry : entries) densities.push_back(load.density(load.on.places.col(entry.item), 0));
+    const auto [lowest, highest] = std::minmax_element(densities.begin(), densities.end());
+    if (*lowest == 0 && *highest == 0) std::fill(densities.begin(), densities.end(), 1);
+    std::vector<Patch> patches;
+    if (*highest > 0) patches.push_back(load_patch(load, entries, centroid, densities, 1));
+    if (*lowest < 0) patches.push_back(load_patch(load, entries, centroid, densities, -1));
+    return patches;
+  }
+
+  // Of the part that it heats, or of the one that it cools.
+  [[nodiscard]] Patch load_patch(const Load& load, const Entries& entries, const Point<dim>& centroid,
+                                 const std::vector<double>& densities, double sign) const {
     Patch patch;
-    PatchMoments<dim> by_shares;
-    for (const Entry& entry : entries) {
-      const Point<dim> arm = mesh_.nodes[load.on.nodes[entry.item]] - centroid;
-      const double share = load.on.shares[entry.item];
-      const double weight = share * std::abs(load.density(load.on.places.col(entry.item), 0));
-      patch.moments.add(arm, weight);
-      by_shares.add(arm, share);
+    patch.load = true;
+    Extent extent;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const auto item = entries[i].item;
+      const double share = load.on.shares[item], heat = share * std::max(0.0, sign * densities[i]);
+      patch.moments.add(mesh_.nodes[load.on.nodes[item]] - centroid, heat);
+      extent.add(heat, share * load.of_share);
     }
-    if (patch.moments.weight == 0) patch.moments = by_shares;
+    (load.in_volume ? patch.volume : patch.area) = extent.size();
     return patch;
   }
 

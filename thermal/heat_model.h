@@ -37,6 +37,7 @@ struct Load {
   NodeShares on;
   Function density;        // [W/m2] or [W/m3]; a total flow [W] has shares that add up to 1
   bool in_volume = false;  // a source in elements
+  double of_share = 1;     // what a share of 1 stands for: the whole area of a total flow [m2 or m3]
 };
 
 // Heat exchanged with surroundings: the equations stand in exchange.h.

@@ -65,10 +65,29 @@ double InnerResistance<dim>::bulk(const PatchMoments<dim>& patch) const {
 }
 
 template <int dim>
+double InnerResistance<dim>::radius_of(double volume) {
+  using std::numbers::pi;
+  return dim == 3 ? std::cbrt(3 * volume / (4 * pi)) : std::sqrt(volume / pi);
+}
+
+template <int dim>
+double InnerResistance<dim>::lowest_conductivity() const {
+  return Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity_, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+template <int dim>
+double InnerResistance<dim>::constriction_within(double volume) const {
+  using std::numbers::pi;
+  if (volume >= volume_) return 0;
+  const double inner = radius_of(volume), outer = radius_of(volume_);
+  if constexpr (dim == 2) return std::log(outer / inner) / (2 * pi * lowest_conductivity());
+  return 3 * (1 / inner - 1 / outer) / (8 * pi * lowest_conductivity());
+}
+
+template <int dim>
 double InnerResistance<dim>::constriction(double area) const {
   using std::numbers::pi;
-  const double lowest = Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity_, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  const double radius = dim == 3 ? std::cbrt(3 * volume_ / (4 * pi)) : std::sqrt(volume_ / pi);  // of the ball
+  const double lowest = lowest_conductivity(), radius = radius_of(volume_);
   const double surface = dim == 3 ? 4 * pi * radius * radius : 2 * pi * radius;
   if (area >= surface) return 0;
   if constexpr (dim == 2) return std::log(1 / std::sin(0.5 * pi * area / surface)) / (pi * lowest);

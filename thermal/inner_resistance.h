@@ -9,7 +9,9 @@
 // What a small patch adds is the constriction of the flow lines near it (Cooper, Mikic and Yovanovich, Int. J. Heat Mass
 // Transfer 12, 1969): in 3-D psi/(4 k r), r the radius of a circle as large as the patch, psi = (1 - r/b)^1.5, b that of a
 // circle as large as the surface; in 2-D ln(1/sin(pi/2 of the share of the perimeter))/(pi k) (Yovanovich, in Handbook of Heat
-// Transfer, 1998). The surface is that of a ball of the block's volume, k the lowest principal conductivity.
+// Transfer, 1998). The surface is that of a ball of the block's volume, k the lowest principal conductivity. Heat set free in a
+// part of the volume is taken for that of a ball of radius a in the middle of that ball of radius b, which it makes warmer than
+// the rim by 3/(8 pi k) (1/a - 1/b), in 2-D by ln(b/a)/(2 pi k).
 #pragma once
 
 #include "thermal/block_conduction.h"
@@ -45,7 +47,13 @@ class InnerResistance {
   // Of a patch of this area [m2]; nothing constricts the flow through one as large as the surface [K/W].
   [[nodiscard]] double constriction(double area) const;
 
+  // Of a part of this volume [m3] in which heat is set free; nothing if it is all of it [K/W].
+  [[nodiscard]] double constriction_within(double volume) const;
+
  private:
+  [[nodiscard]] static double radius_of(double volume);  // of a ball [m]
+  [[nodiscard]] double lowest_conductivity() const;
+
   const mesh::BlockMesh<dim>& mesh_;
   const mesh::Block& block_;
   Tensor<dim> conductivity_;

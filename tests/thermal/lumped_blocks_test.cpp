@@ -239,24 +239,6 @@ TEST(LumpedBlocks, KnowTheirErrorWhereConvectionBeginsLater) {
   EXPECT_GT(test::heated(row.model()).lumping.largest, real);
 }
 
-// Heated near a corner only, for as long as its inside takes to follow.
-TEST(LumpedBlocks, KnowTheirErrorWhereALoadIsStrongAtOneEnd) {
-  const auto run = [](BlockModel model, const std::string& density) {
-    auto row = row_of_cubes<2>(1, 20);
-    Source source{test::on(BodyId{0}), test::formula(density), "source", {}};
-    row.options.sources.push_back(source);
-    row.options.blocks.model = model;
-    return test::heated(row.model(), 20000);
-  };
-  for (const std::string density : {"1e5*exp(-x/0.01)", "1e5*exp(-(x + y)/0.02)"}) {
-    const auto meshed = run(BlockModel::meshed, density);
-    const double real = 0.5 * (meshed.temperature.maxCoeff() - meshed.temperature.minCoeff());
-    const double stated = run(BlockModel::lumped, density).lumping.largest;
-    EXPECT_GT(stated, real) << density;
-    EXPECT_LT(stated, 6 * real) << density;
-  }
-}
-
 // At room temperature it conducts ten times as well as where it is hot.
 TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyMayHave) {
   const auto stated = [](const Curve& conductivity) {
@@ -311,6 +293,16 @@ TEST(InnerResistance, OfASmallPatchIsThatOfADiscOnAHalfSpace) {
   const double radius = 1e-6;
   EXPECT_NEAR(inside.constriction(std::numbers::pi * radius * radius) * 4 * 3 * radius, 1, 1e-5);
   EXPECT_EQ(inside.constriction(100), 0);
+}
+
+// What a ball in the middle of another one is warmer by than the rim, the whole block taken for that.
+TEST(InnerResistance, OfAPartOfTheVolumeIsThatOfABallWithinABall) {
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(1, 1, 1, 1)});
+  const InnerResistance<3> inside(mesh, mesh.blocks[BlockId{0}], 3 * Tensor<3>::Identity());
+  const double inner = 1e-6, outer = std::cbrt(0.75 / std::numbers::pi);
+  const double stated = inside.constriction_within(std::numbers::pi / 0.75 * inner * inner * inner);
+  EXPECT_NEAR(stated * 8 * std::numbers::pi * 3, 3 * (1 / inner - 1 / outer), 1e-3);
+  EXPECT_EQ(inside.constriction_within(1), 0);
 }
 
 }  // namespace
