@@ -90,13 +90,22 @@ TEST(ReadScene, TheEffectiveSceneShowsEveryDefault) {
   }
 }
 
-TEST(ReadScene, WithoutAnIntervalThereAreTwentyOutputs) {
+TEST(ReadScene, WithoutIntervalsThereAreSixtyRowsAndTwelveFrames) {
   const Scene scene = scene_of(whole_scene, {"output=null"});
-  EXPECT_EQ(scene.heat->time.output_every, 2160);
-  EXPECT_THAT(scene.effective, HasSubstr("every: 2160 s"));
+  EXPECT_EQ(scene.heat->time.output_every, 720);
+  EXPECT_EQ(scene.frames_every, 3600);
+  EXPECT_THAT(scene.effective, HasSubstr("every: 720 s"));
+  EXPECT_THAT(scene.effective, HasSubstr("frames_every: 3600 s"));
   EXPECT_EQ(values_of(scene_of(scene.effective)), values_of(scene));
-  EXPECT_EQ(scene_of(whole_scene, {"output.every=null", "output.frames_every=7 min"}).heat->time.output_every, 420);
-  EXPECT_EQ(scene_of(whole_scene, {"output.every=1 min", "output.frames_every=7 min"}).heat->time.output_every, 60);
+}
+
+TEST(ReadScene, TheIntervalOfRowsIsThatOfFramesIfThatAloneIsGivenAndTheOtherWayRound) {
+  const Scene by_frames = scene_of(whole_scene, {"output.every=null", "output.frames_every=7 min"});
+  EXPECT_EQ(by_frames.heat->time.output_every, 420);
+  EXPECT_EQ(by_frames.frames_every, 420);
+  const Scene by_rows = scene_of(whole_scene, {"output.every=7 min"});
+  EXPECT_EQ(by_rows.heat->time.output_every, 420);
+  EXPECT_EQ(by_rows.frames_every, 0);  // every row
 }
 
 TEST(ReadScene, SectionsThatAreAbsentAreNotModelled) {

@@ -290,11 +290,11 @@ Keys output_keys() {
   return {
       row("output", section, "What a run writes of the temperatures.").fallback("{}").only({Condition{"heat"}}),
       row("output.every", quantity, "Time between the rows of probes.csv. Steps may be longer.", q::time, positive)
-          .otherwise("output.frames_every, or else a twentieth of heat.until")
+          .otherwise("output.frames_every, or else a sixtieth of heat.until")
           .only({Condition{.key = "heat.steady", .word = "true", .absent = true}}),
       row("output.frames_every", quantity, "Time between the frames of heat.pvd, a multiple of output.every.", q::time,
           positive)
-          .otherwise("output.every")
+          .otherwise("output.every, or if that is not given either a twelfth of heat.until")
           .only({Condition{.key = "heat.steady", .word = "true", .absent = true}}),
       row("output.probes", names, "Points whose temperature is followed.").fallback("{}"),
       row("output.probes.*", quantity, "One point, as a list or with its reach.", q::length).count(vector),

@@ -7,25 +7,44 @@
 
 namespace scree {
 
-// So many frames show how heat spreads, and take less than a tenth of the stage that they are of (tools/bench/README.md).
-constexpr int intervals_by_default = 20;
+namespace {
 
-void fill_in_interval(Checked& checked) {
+// A dozen frames show how heat spreads, and take less than a tenth of the stage that they are of (tools/bench/README.md); rows
+// of probes.csv cost next to nothing.
+constexpr int frames_by_default = 12;
+constexpr int rows_by_default = 60;
+
+CheckedEntry interval(const std::string& name, Checked value, const SourceLocation& where) {
+  value.path = "output." + name;
+  value.key = scene_keys().find(value.path);
+  value.where = where;
+  value.given = false;
+  return {name, where, std::move(value)};
+}
+
+Checked part_of(Checked until, int parts) {
+  until.numbers = {until.number() / parts};
+  until.text = fmt::format("{} s", until.number());
+  return until;
+}
+
+void fill_in(CheckedEntry& output, const Checked& until) {
+  std::vector<CheckedEntry>& entries = output.value.entries;
+  if (const Checked* frames = output.value.find("frames_every")) {
+    entries.push_back(interval("every", *frames, output.where));
+  } else {
+    entries.push_back(interval("every", part_of(until, rows_by_default), output.where));
+    entries.push_back(interval("frames_every", part_of(until, frames_by_default), output.where));
+  }
+}
+
+}  // namespace
+
+void fill_in_intervals(Checked& checked) {
   const Checked& until = checked.at("heat").at("until");
   if (!until.sound) return;
   for (CheckedEntry& section : checked.entries) {
-    Checked& output = section.value;
-    if (section.name != "output" || output.find("every") != nullptr) continue;
-    const Checked* frames = output.find("frames_every");
-    Checked every = frames == nullptr ? until : *frames;
-    every.key = scene_keys().find("output.every");
-    every.path = "output.every";
-    every.given = false;
-    if (frames == nullptr) {
-      every.numbers = {until.number() / intervals_by_default};
-      every.text = fmt::format("{} s", every.number());
-    }
-    output.entries.push_back({"every", section.where, std::move(every)});
+    if (section.name == "output" && section.value.find("every") == nullptr) fill_in(section, until);
   }
 }
 

@@ -88,7 +88,7 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   scene.file = file;
   scene.dimension = dimension_of(root);
   Checked checked = check_input(root, scene_keys(), scene.dimension, problems);
-  fill_in_interval(checked);
+  fill_in_intervals(checked);
   make_paths_absolute(checked, std::filesystem::absolute(file).parent_path());
 
   scene.title = checked.at("title").text;

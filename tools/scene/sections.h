@@ -23,8 +23,8 @@ thermal::JointOptions read_joint(const Checked& scene, Problems& problems);
 thermal::HeatOptions read_heat(const Checked& scene, Problems& problems);
 std::optional<Aabb<3>> read_effective_window(const Checked& heat, int dimension, Problems& problems);
 std::optional<output::StoredField> read_initial_field(const Checked& initial);
-// Gives a scene with heat in time the interval between outputs that it does not name.
-void fill_in_interval(Checked& checked);
+// Gives a scene with heat in time the intervals between outputs that it does not name.
+void fill_in_intervals(Checked& checked);
 
 double read_frames_every(const Checked& output, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& problems);
