@@ -83,7 +83,8 @@ LargeVector<FaceId> same_keys(const LargeVector<FaceKey>& keys) {
   LargeVector<FaceId> others(keys.size());
   for_chunks(groups, [&](Chunk chunk) {
     for (std::size_t group = chunk.begin; group < chunk.end; ++group) {
-      const KeyOf *begin = &grouped.values[grouped.begin[group]], *end = &grouped.values[grouped.begin[group + 1]];
+      const KeyOf *begin = grouped.values.data() + grouped.begin[group],
+                  *end = grouped.values.data() + grouped.begin[group + 1];
       for (const KeyOf* one = begin; one < end; ++one) {
         const auto same = [&](const KeyOf& other) { return other.key == one->key; };
         const KeyOf* other = std::find_if(one + 1, end, same);
