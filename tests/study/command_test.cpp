@@ -1,6 +1,7 @@
 // `scree study` as a user meets it, on a block that falls onto a hot plate.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -187,6 +188,23 @@ TEST(StudyCommand, SaysWhenAFigureIsInNoSummary) {
   const Ended ended = study.run();
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.text, HasSubstr("s.yaml:3:10: report: heat.tme is in no summary.json. Did you mean heat.time?"));
+}
+
+TEST(StudyCommand, TabulatesTheOthersWhereARunHasLostItsProbes) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run().status, 0);
+  const study::Table whole = study.table();
+  const std::string& lost = whole.find("directory")->texts[1];
+  fs::remove(study.out / lost / "probes.csv");
+  EXPECT_EQ(study.run("--gather").status, 1);
+  const study::Table table = study.table();
+  EXPECT_THAT(table.find("status")->texts, testing::ElementsAre("complete", "damaged", "complete", "complete"));
+  EXPECT_THAT(table.find("reason")->texts[1], testing::AllOf(HasSubstr("probes.csv"), HasSubstr("Remove " + lost)));
+  EXPECT_TRUE(std::isnan(table.find("warm")->numbers[1]));
+  EXPECT_EQ(table.find("warm")->numbers[0], whole.find("warm")->numbers[0]);
+  fs::remove_all(study.out / lost);
+  EXPECT_EQ(study.run().status, 0);
+  EXPECT_EQ(study.table().find("warm")->numbers, whole.find("warm")->numbers);
 }
 
 TEST(StudyCommand, MakesItsRunsAsTasksAtOnceWithTheSamePackings) {

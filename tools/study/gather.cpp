@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/check.h"
 #include "engine/base/nearest.h"
 #include "engine/output/probe_history.h"
 #include "tools/study/first_time.h"
@@ -38,14 +39,32 @@ Cell cell_of(const Level& level) {
   return {missing, level.text, true};
 }
 
-Cell reported(const Report& report, const Outcome& outcome, const run::RunFiles& files) {
-  if (report.probe.empty()) return cell_of(value_at(outcome.summary, report.path));
-  // A run that has not ended may reach it yet, and one that went wrong is no measurement.
-  if (outcome.status != "complete") return {};
-  const output::ProbeHistory history = output::read_probe_history(files.probes());
-  const auto values = history.values.find(report.probe);
-  if (values == history.values.end()) return {};
-  return {first_time_at(history.times, values->second, report.reaches).value_or(missing)};
+// What came of a run, with what its probes read if that is asked for.
+struct Result {
+  Outcome outcome;
+  output::ProbeHistory history;
+};
+
+// A complete run whose probes cannot be read is damaged: the others still make a table.
+Result result_of(const Study& study, const StudyFiles& files, const std::string& run) {
+  Result result{read_outcome(files, run), {}};
+  // One that has not ended may reach a temperature yet, and one that went wrong is no measurement.
+  const bool asked = std::any_of(study.reports.begin(), study.reports.end(), [](const Report& r) { return !r.probe.empty(); });
+  if (!asked || result.outcome.status != "complete") return result;
+  try {
+    result.history = output::read_probe_history(files.run(run).probes());
+  } catch (const InputError& error) {
+    result.outcome.status = "damaged";
+    result.outcome.reason = fmt::format("{}. Remove runs/{} to have it made again", error.what(), run);
+  }
+  return result;
+}
+
+Cell reported(const Report& report, const Result& result) {
+  if (report.probe.empty()) return cell_of(value_at(result.outcome.summary, report.path));
+  const auto values = result.history.values.find(report.probe);
+  if (values == result.history.values.end()) return {};
+  return {first_time_at(result.history.times, values->second, report.reaches).value_or(missing)};
 }
 
 // Numbers, unless a row has a text.
@@ -65,31 +84,30 @@ Column column_of(const std::string& name, const std::vector<Cell>& cells) {
 }  // namespace
 
 Table gather(const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
-  std::vector<Outcome> outcomes;
-  outcomes.reserve(runs.size());
-  for (const PlannedRun& run : runs) outcomes.push_back(read_outcome(files, run.directory));
+  std::vector<Result> results;
+  results.reserve(runs.size());
+  for (const PlannedRun& run : runs) results.push_back(result_of(study, files, run.directory));
   Table table;
   const auto add = [&](const std::string& name, auto cell) {
     std::vector<Cell> cells;
-    for (std::size_t i = 0; i < runs.size(); ++i) cells.push_back(cell(runs[i], outcomes[i]));
+    for (std::size_t i = 0; i < runs.size(); ++i) cells.push_back(cell(runs[i], results[i]));
     table.columns.push_back(column_of(name, cells));
   };
-  add("run", [](const PlannedRun& run, const Outcome&) { return Cell{static_cast<double>(run.number)}; });
-  add("point", [](const PlannedRun& run, const Outcome&) { return Cell{static_cast<double>(run.point.number + 1)}; });
+  add("run", [](const PlannedRun& run, const Result&) { return Cell{static_cast<double>(run.number)}; });
+  add("point", [](const PlannedRun& run, const Result&) { return Cell{static_cast<double>(run.point.number + 1)}; });
   const std::vector<std::string> varied = study.varied();
   for (std::size_t i = 0; i < varied.size(); ++i) {
-    add(varied[i], [&](const PlannedRun& run, const Outcome&) { return cell_of(run.point.levels[i]); });
+    add(varied[i], [&](const PlannedRun& run, const Result&) { return cell_of(run.point.levels[i]); });
   }
   for (const Report& report : study.reports) {
-    add(report.column,
-        [&](const PlannedRun& run, const Outcome& outcome) { return reported(report, outcome, files.run(run.directory)); });
+    add(report.column, [&](const PlannedRun&, const Result& result) { return reported(report, result); });
   }
-  add("status", [](const PlannedRun&, const Outcome& outcome) { return Cell{missing, outcome.status, true}; });
-  add("reason", [](const PlannedRun&, const Outcome& outcome) { return Cell{missing, outcome.reason, true}; });
+  add("status", [](const PlannedRun&, const Result& result) { return Cell{missing, result.outcome.status, true}; });
+  add("reason", [](const PlannedRun&, const Result& result) { return Cell{missing, result.outcome.reason, true}; });
   const auto positive = [](double value) { return Cell{value > 0 ? value : missing}; };
-  add("wall_seconds", [&](const PlannedRun&, const Outcome& outcome) { return positive(outcome.wall_seconds); });
-  add("peak_memory_bytes", [&](const PlannedRun&, const Outcome& outcome) { return positive(outcome.peak_memory_bytes); });
-  add("directory", [](const PlannedRun& run, const Outcome&) { return Cell{missing, "runs/" + run.directory, true}; });
+  add("wall_seconds", [&](const PlannedRun&, const Result& result) { return positive(result.outcome.wall_seconds); });
+  add("peak_memory_bytes", [&](const PlannedRun&, const Result& result) { return positive(result.outcome.peak_memory_bytes); });
+  add("directory", [](const PlannedRun& run, const Result&) { return Cell{missing, "runs/" + run.directory, true}; });
   return table;
 }
 
