@@ -114,8 +114,10 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
   std::error_code ignored;
   std::filesystem::remove(context.files.packing(), ignored);  // of another scene
   begin_results(context);
-  auto packing =
-      context.stage("settle", fmt::format("{} blocks fall", blocks.blocks.size()), [&] { return settle(context, blocks); });
+  const auto free = std::count_if(blocks.blocks.begin(), blocks.blocks.end(),
+                                  [&](const mesh::Block& block) { return !blocks.bodies[block.body].fixed; });
+  auto packing = context.stage("settle", fmt::format("{} of {} blocks fall", free, blocks.blocks.size()),
+                               [&] { return settle(context, blocks); });
   return {std::move(packing), false};
 }
 
