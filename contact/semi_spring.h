@@ -17,6 +17,14 @@ std::array<double, dim> semi_spring_weights(int corner, double indentation) {
   return weights;
 }
 
+// Of the semi-spring of each corner.
+template <int dim>
+std::array<std::array<double, dim>, dim> all_semi_spring_weights(double indentation) {
+  std::array<std::array<double, dim>, dim> weights;
+  for (int corner = 0; corner < dim; ++corner) weights[corner] = semi_spring_weights<dim>(corner, indentation);
+  return weights;
+}
+
 // A_SS = A_face / N_vertices, eq. (9), of a triangle or edge [m2]; those of quadrilaterals follow (both_diagonals.h).
 template <int dim>
 double semi_spring_area(const Surface<dim>& surface, FaceId face) {

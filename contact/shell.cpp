@@ -137,11 +137,11 @@ Shell<dim> make_shell(const Surface<dim>& surface, FaceId first, FaceId end, con
   for (std::size_t f = first.index(); f < end.index(); ++f) {
     const int plane = opposite_vertex(surface, FaceId{f});
     shell.faces = static_cast<std::uint8_t>(shell.faces | 1u << plane);
-    shell.open = shell.faces;
     if constexpr (dim == 3) {
       if (with_edges) add_edges(surface, plane, FaceId{f}, shell);
     }
   }
+  shell.open = shell.faces;
   return shell;
 }
 

@@ -61,9 +61,13 @@ class SpringSearch {
  public:
   SpringSearch(const Surface<dim>& surface, const ContactOptions& options, const ShellTable<dim>& table, const NearShells& near,
                SpringTargets<dim>& targets)
-      : surface_(surface), options_(options), table_(table), near_(near), targets_(targets), list_(options.indentation) {
-    for (int corner = 0; corner < dim; ++corner) weights_[corner] = semi_spring_weights<dim>(corner, options.indentation);
-  }
+      : surface_(surface),
+        options_(options),
+        table_(table),
+        near_(near),
+        targets_(targets),
+        weights_(all_semi_spring_weights<dim>(options.indentation)),
+        list_(options.indentation) {}
 
   // No more shells than the list holds.
   void find(std::size_t begin, std::size_t end) {
@@ -202,9 +206,7 @@ class SpringSearch {
   }
 
   void take(std::size_t spring, const Touched& best) {
-    targets_.faces[spring] = best.target;
-    targets_.blocks[spring] = surface_.faces[best.target].block;
-    targets_.touches[spring] = {best.touch.gap, best.touch.on_target};
+    targets_.take(spring, best.target, surface_.faces[best.target].block, {best.touch.gap, best.touch.on_target});
   }
 
   struct Asked {

@@ -20,9 +20,19 @@ struct SpringTouch {
 // Of corner c of face f at f * dim + c.
 template <int dim>
 struct SpringTargets {
-  LargeVector<FaceId> faces;                       // invalid if it touches nothing
-  LargeVector<BlockId> blocks;                     // those of these faces
-  VectorWrittenLater<SpringTouch<dim>> touches{};  // of those that have a target
+  // None yet.
+  explicit SpringTargets(const Surface<dim>& surface)
+      : faces(surface.faces.size() * dim), blocks(faces.size()), touches(faces.size()) {}
+
+  void take(std::size_t spring, FaceId face, BlockId block, const SpringTouch<dim>& touch) {
+    faces[spring] = face;
+    blocks[spring] = block;
+    touches[spring] = touch;
+  }
+
+  LargeVector<FaceId> faces;                     // invalid if it touches nothing
+  LargeVector<BlockId> blocks;                   // those of these faces
+  VectorWrittenLater<SpringTouch<dim>> touches;  // of those that have a target
 };
 
 // Finds those that are not known yet. `near`: all pairs of shells of the table that are near, emptied as soon as they are read.

@@ -34,10 +34,7 @@ void close_shells(const SpringTargets<dim>& targets, ShellTable<dim>& table) {
 
 template <int dim>
 Targets<dim> find_targets(const Surface<dim>& surface, const ContactOptions& options) {
-  Targets<dim> targets;
-  const std::size_t springs = surface.faces.size() * dim;
-  targets.of_springs = {LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
-  targets.of_springs.touches.resize(springs);
+  Targets<dim> targets{SpringTargets<dim>(surface), {}};
   const bool some_known = take_twins(surface, options, targets.of_springs);
   ShellTable<dim> table = make_shells(surface, {options.tolerance, options.indentation});
   if (some_known) close_shells(targets.of_springs, table);

@@ -101,9 +101,7 @@ template <int dim>
 class Twins {
  public:
   Twins(const Surface<dim>& surface, const ContactOptions& options, SpringTargets<dim>& targets)
-      : surface_(surface), targets_(targets) {
-    for (int corner = 0; corner < dim; ++corner) weights_[corner] = semi_spring_weights<dim>(corner, options.indentation);
-  }
+      : surface_(surface), targets_(targets), weights_(all_semi_spring_weights<dim>(options.indentation)) {}
 
   void take(const LargeVector<FaceKey>& keys) {
     const LargeVector<FaceId> same = same_keys(keys);
@@ -128,12 +126,9 @@ class Twins {
 
   void take_one(FaceId face, FaceId target, const std::array<int, dim>& same) {
     for (int corner = 0; corner < dim; ++corner) {
-      const std::size_t spring = face.index() * dim + static_cast<std::size_t>(corner);
-      targets_.faces[spring] = target;
-      targets_.blocks[spring] = surface_.faces[target].block;
-      SpringTouch<dim>& touch = targets_.touches[spring];
-      touch.gap = 0;
+      SpringTouch<dim> touch{0, {}};
       for (int i = 0; i < dim; ++i) touch.on_target[same[i]] = weights_[corner][i];
+      targets_.take(face.index() * dim + static_cast<std::size_t>(corner), target, surface_.faces[target].block, touch);
     }
   }
 

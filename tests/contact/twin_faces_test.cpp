@@ -28,9 +28,7 @@ BlockOf<dim> lattice() {
 
 template <int dim>
 SpringTargets<dim> twins_of(const Surface<dim>& surface) {
-  const std::size_t springs = surface.faces.size() * dim;
-  SpringTargets<dim> targets{LargeVector<FaceId>(springs), LargeVector<BlockId>(springs)};
-  targets.touches.resize(springs);
+  SpringTargets<dim> targets(surface);
   take_twins(surface, {}, targets);
   return targets;
 }

@@ -39,32 +39,36 @@ Cell cell_of(const Level& level) {
   return {missing, level.text, true};
 }
 
-// What came of a run, with what its probes read if that is asked for.
+Cell reported(const Report& report, const Outcome& outcome, const output::ProbeHistory& history) {
+  if (report.probe.empty()) return cell_of(value_at(outcome.summary, report.path));
+  const auto values = history.values.find(report.probe);
+  if (values == history.values.end()) return {};
+  return {first_time_at(history.times, values->second, report.reaches).value_or(missing)};
+}
+
+// What came of a run.
 struct Result {
   Outcome outcome;
-  output::ProbeHistory history;
+  std::vector<Cell> reported;  // of each report
 };
 
 // A complete run whose probes cannot be read is damaged: the others still make a table.
 Result result_of(const Study& study, const StudyFiles& files, const std::string& run) {
-  Result result{read_outcome(files, run), {}};
-  // One that has not ended may reach a temperature yet, and one that went wrong is no measurement.
+  Outcome outcome = read_outcome(files, run);
+  output::ProbeHistory history;
   const bool asked = std::any_of(study.reports.begin(), study.reports.end(), [](const Report& r) { return !r.probe.empty(); });
-  if (!asked || result.outcome.status != "complete") return result;
-  try {
-    result.history = output::read_probe_history(files.run(run).probes());
-  } catch (const InputError& error) {
-    result.outcome.status = "damaged";
-    result.outcome.reason = fmt::format("{}. Remove runs/{} to have it made again", error.what(), run);
+  // One that has not ended may reach a temperature yet, and one that went wrong is no measurement.
+  if (asked && outcome.status == "complete") {
+    try {
+      history = output::read_probe_history(files.run(run).probes());
+    } catch (const InputError& error) {
+      outcome.status = "damaged";
+      outcome.reason = fmt::format("{}. Remove runs/{} to have it made again", error.what(), run);
+    }
   }
-  return result;
-}
-
-Cell reported(const Report& report, const Result& result) {
-  if (report.probe.empty()) return cell_of(value_at(result.outcome.summary, report.path));
-  const auto values = result.history.values.find(report.probe);
-  if (values == result.history.values.end()) return {};
-  return {first_time_at(result.history.times, values->second, report.reaches).value_or(missing)};
+  std::vector<Cell> cells;
+  for (const Report& report : study.reports) cells.push_back(reported(report, outcome, history));
+  return {std::move(outcome), std::move(cells)};
 }
 
 // Numbers, unless a row has a text.
@@ -99,8 +103,8 @@ Table gather(const Study& study, const std::vector<PlannedRun>& runs, const Stud
   for (std::size_t i = 0; i < varied.size(); ++i) {
     add(varied[i], [&](const PlannedRun& run, const Result&) { return cell_of(run.point.levels[i]); });
   }
-  for (const Report& report : study.reports) {
-    add(report.column, [&](const PlannedRun&, const Result& result) { return reported(report, result); });
+  for (std::size_t i = 0; i < study.reports.size(); ++i) {
+    add(study.reports[i].column, [&](const PlannedRun&, const Result& result) { return result.reported[i]; });
   }
   add("status", [](const PlannedRun&, const Result& result) { return Cell{missing, result.outcome.status, true}; });
   add("reason", [](const PlannedRun&, const Result& result) { return Cell{missing, result.outcome.reason, true}; });
