@@ -4,12 +4,13 @@
 #include <span>
 #include <stdexcept>
 
-#include <H5Cpp.h>
 #include <fmt/format.h>
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
+#include "engine/base/hdf5_image.h"
+#include "engine/base/hdf5_reader.h"
 #include "thermal/heat_run.h"
 #include "thermal/problems.h"
 
@@ -123,44 +124,11 @@ std::string digest(const std::string& key, const SomeLists& lists) {
   return hasher.hex();
 }
 
-template <class T>
-const H5::PredType& type_of();
-template <>
-const H5::PredType& type_of<double>() {
-  return H5::PredType::NATIVE_DOUBLE;
+void read(const Hdf5Reader& in, const char* name, Doubles& list) {
+  list = in.doubles(name);
 }
-template <>
-const H5::PredType& type_of<std::int64_t>() {
-  return H5::PredType::NATIVE_INT64;
-}
-
-template <class List>
-void put(H5::H5File& file, const char* name, const List& list) {
-  const auto& type = type_of<typename List::value_type>();
-  const hsize_t size = list.size();
-  // The same state is the same file, whenever it is written.
-  H5::DSetCreatPropList timeless;
-  H5Pset_obj_track_times(timeless.getId(), false);
-  file.createDataSet(name, type, H5::DataSpace(1, &size), timeless).write(list.data(), type);
-}
-
-template <class T>
-void get(const H5::H5File& file, const char* name, std::vector<T>& list) {
-  const H5::DataSet set = file.openDataSet(name);
-  list.resize(static_cast<std::size_t>(set.getSpace().getSimpleExtentNpoints()));
-  set.read(list.data(), type_of<T>());
-}
-
-void put_text(H5::H5File& file, const char* name, const std::string& text) {
-  const H5::StrType type(H5::PredType::C_S1, text.size() + 1);
-  file.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, text);
-}
-
-std::string get_text(const H5::H5File& file, const char* name) {
-  const H5::Attribute attribute = file.openAttribute(name);
-  std::string text;
-  attribute.read(attribute.getStrType(), text);
-  return text.substr(0, text.find('\0'));
+void read(const Hdf5Reader& in, const char* name, Counts& list) {
+  list = in.integers(name);
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& rule, const std::string& suggestion) {
@@ -172,39 +140,35 @@ std::string get_text(const H5::H5File& file, const char* name) {
 }  // namespace
 
 void write(const HeatState& state, const std::string& key, const std::filesystem::path& file) {
-  H5::Exception::dontPrint();
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
-    try {
-      const WrittenLists lists = pack(state);
-      H5::H5File out(temporary.string(), H5F_ACC_TRUNC);
-      put_text(out, "format", format_name);
-      put_text(out, "key", key);
-      put_text(out, "digest", digest(key, lists));
-      for_each_list(lists, [&](const char* name, const auto& list) { put(out, name, list); });
-    } catch (const H5::Exception& failure) {
-      throw RunError(fmt::format("{} could not be written: {}", temporary.string(), failure.getDetailMsg()));
-    }
-  });
+  const WrittenLists lists = pack(state);
+  std::size_t numbers = 0;
+  for_each_list(lists, [&](const char*, const auto& list) { numbers += list.size(); });
+  Hdf5Image image(sizeof(double) * numbers);
+  image.put_attribute("format", format_name);
+  image.put_attribute("key", key);
+  image.put_attribute("digest", digest(key, lists));
+  for_each_list(lists, [&](const char* name, const auto& list) { image.put(name, list); });
+  write_text(file, image.bytes());
 }
 
 HeatState read_state(const std::filesystem::path& file, const std::string& key) {
-  H5::Exception::dontPrint();
   if (!std::filesystem::exists(file)) refuse(file, "no such file", "Run the scene from its start");
   const std::string damaged = "must be a whole heat state; this one is damaged or something else";
   try {
-    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-    if (get_text(in, "format") != format_name) refuse(file, damaged, "Delete it and run the scene from its start");
-    const std::string found = get_text(in, "key");
+    const Hdf5Reader in(file);
+    if (in.text_attribute("format") != format_name) refuse(file, damaged, "Delete it and run the scene from its start");
+    const std::string found = in.text_attribute("key");
     ReadLists lists;
-    for_each_list(lists, [&](const char* name, auto& list) { get(in, name, list); });
-    const bool whole = get_text(in, "digest") == digest(found, lists) && lists.numbers.size() == 17 && lists.counts.size() == 3;
+    for_each_list(lists, [&](const char* name, auto& list) { read(in, name, list); });
+    const bool whole =
+        in.text_attribute("digest") == digest(found, lists) && lists.numbers.size() == 17 && lists.counts.size() == 3;
     if (!whole) refuse(file, damaged, "Delete it and run the scene from its start");
     if (found != key) {
       refuse(file, "must belong to this scene; its blocks, contacts or heat have changed since",
              "Run the scene from its start");
     }
     return unpack(lists);
-  } catch (const H5::Exception&) {
+  } catch (const Hdf5Error&) {
     refuse(file, damaged, "Delete it and run the scene from its start");
   } catch (const std::logic_error&) {  // a text that is not there, or a list longer than any
     refuse(file, damaged, "Delete it and run the scene from its start");

@@ -1,6 +1,7 @@
 #include "engine/base/atomic_file.h"
 
 #include <cerrno>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,8 @@
 namespace scree {
 
 namespace {
+
+thread_local FilesTogether* together = nullptr;  // where files of this thread wait, if they do
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::error_code reason) {
   throw RunError(not_written(file, reason));
@@ -31,16 +34,32 @@ std::filesystem::path target_of(const std::filesystem::path& name) {
   return file;
 }
 
-// Calls `make` with the temporary name, which writes the file there and flushes it to disk.
-template <class Make>
-void replace_atomically(const std::filesystem::path& file, const Make& make) {
+void flush(const std::filesystem::path& temporary, const std::filesystem::path& file) {
+  if (const std::error_code reason = flush_to_disk(temporary)) fail(file, reason);
+}
+
+void name_written(const std::filesystem::path& temporary, const std::filesystem::path& file) {
+  std::error_code reason;
+  std::filesystem::rename(temporary, file, reason);
+  if (reason) fail(file, reason);
+}
+
+void flush_and_name(const std::filesystem::path& temporary, const std::filesystem::path& file) {
+  if (together != nullptr) return together->add(temporary, file);
+  flush(temporary, file);
+  name_written(temporary, file);
+}
+
+// Calls `make` with the temporary name, which writes the file there, and `finish` with both names.
+template <class Make, class Finish>
+void replace_atomically(const std::filesystem::path& file, const Make& make, const Finish& finish) {
   // The extension stays last: writers choose the format by it.
   std::filesystem::path temporary = file;
   temporary.replace_filename(fmt::format(".part-{}", file.filename().string()));
   std::error_code ignored;
   try {
     if (const std::error_code reason = make(temporary)) fail(file, reason);
-    std::filesystem::rename(temporary, file);
+    finish(temporary, file);
   } catch (const std::filesystem::filesystem_error& error) {
     std::filesystem::remove(temporary, ignored);
     fail(file, error.code());
@@ -59,19 +78,57 @@ std::string not_written(const std::filesystem::path& file, std::error_code reaso
 }
 
 void write_atomically(const std::filesystem::path& name, const std::function<void(const std::filesystem::path&)>& write) {
-  replace_atomically(target_of(name), [&](const std::filesystem::path& temporary) {
+  const auto make = [&](const std::filesystem::path& temporary) {
     write(temporary);
-    return flush_to_disk(temporary);
-  });
+    return std::error_code();
+  };
+  replace_atomically(target_of(name), make, flush_and_name);
 }
 
 void write_atomically(const std::filesystem::path& name, std::span<const std::string_view> parts, Way way) {
-  replace_atomically(target_of(name),
-                     [&](const std::filesystem::path& temporary) { return write_parts(temporary, parts, way); });
+  replace_atomically(
+      target_of(name), [&](const std::filesystem::path& temporary) { return write_parts(temporary, parts, way); },
+      flush_and_name);
 }
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
   write_atomically(file, {&text, 1}, Way::cached);
+}
+
+void write_unflushed(const std::filesystem::path& file, std::string_view text) {
+  const auto make = [&](const std::filesystem::path& temporary) { return write_parts(temporary, {&text, 1}, Way::cached); };
+  replace_atomically(target_of(file), make, name_written);
+}
+
+FilesTogether::Scope::Scope(FilesTogether& files) : outer_(std::exchange(together, &files)) {}
+
+FilesTogether::Scope::~Scope() {
+  together = outer_;
+}
+
+FilesTogether::~FilesTogether() {
+  try {
+    publish();
+  } catch (...) {
+  }
+}
+
+void FilesTogether::add(const std::filesystem::path& temporary, const std::filesystem::path& file) {
+  std::erase_if(waiting_, [&](const Waiting& earlier) { return earlier.temporary == temporary; });
+  waiting_.push_back({temporary, file});
+  begin_to_flush(temporary);  // or the disk does nothing meanwhile
+}
+
+void FilesTogether::publish() {
+  const std::vector<Waiting> files = std::exchange(waiting_, {});
+  try {
+    for (const Waiting& each : files) flush(each.temporary, each.file);
+    for (const Waiting& each : files) name_written(each.temporary, each.file);
+  } catch (...) {
+    std::error_code ignored;
+    for (const Waiting& each : files) std::filesystem::remove(each.temporary, ignored);
+    throw;
+  }
 }
 
 }  // namespace scree

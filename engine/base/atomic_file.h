@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "engine/base/file_parts.h"
 
@@ -20,6 +21,44 @@ void write_atomically(const std::filesystem::path& file, const std::function<voi
 // The same for parts that are not put together first, and for text.
 void write_atomically(const std::filesystem::path& file, std::span<const std::string_view> parts, Way way);
 void write_text(const std::filesystem::path& file, std::string_view text);
+
+// The same for the head of a file to which lines are appended at once, none of which is flushed.
+void write_unflushed(const std::filesystem::path& file, std::string_view text);
+
+// Files that wait under their temporary names until all are flushed to disk at once and named in the order in which they were
+// last written. That takes the disk little longer than one of them, and flushing each is a third of what a small run takes.
+class FilesTogether {
+ public:
+  // While it lives, what this thread writes by the functions above waits, but for what is not flushed.
+  class Scope {
+   public:
+    explicit Scope(FilesTogether& files);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    FilesTogether* outer_;
+  };
+
+  FilesTogether() = default;
+  // Names what still waits, if that can be done: files that were written before something went wrong are whole.
+  ~FilesTogether();
+  FilesTogether(const FilesTogether&) = delete;
+  FilesTogether& operator=(const FilesTogether&) = delete;
+
+  // Throws RunError as the functions above do; those that do not have their names then never get them.
+  void publish();
+
+  // One that has been written.
+  void add(const std::filesystem::path& temporary, const std::filesystem::path& file);
+
+ private:
+  struct Waiting {
+    std::filesystem::path temporary, file;
+  };
+  std::vector<Waiting> waiting_;
+};
 
 // What to say of a file that could not be written, for the system's error.
 std::string not_written(const std::filesystem::path& file, std::error_code reason);

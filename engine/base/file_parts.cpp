@@ -95,7 +95,6 @@ std::error_code flush(int descriptor) {
 std::error_code write_and_close(Descriptor& file, std::span<const std::string_view> parts) {
   if (!file.is_open()) return last_error();
   if (const std::error_code reason = write_all(file.number(), Rest(parts))) return reason;
-  if (const std::error_code reason = flush(file.number())) return reason;
   return file.close();
 }
 
@@ -109,6 +108,11 @@ std::error_code write_parts(const std::filesystem::path& name, std::span<const s
   }
   Descriptor file(name, flags);
   return write_and_close(file, parts);
+}
+
+void begin_to_flush(const std::filesystem::path& name) {
+  const Descriptor file(name, O_RDONLY);
+  if (file.is_open()) ::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE);
 }
 
 std::error_code flush_to_disk(const std::filesystem::path& name) {

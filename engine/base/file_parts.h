@@ -13,11 +13,14 @@ namespace scree {
 // other.
 enum class Way { cached, direct };
 
-// Creates or replaces the file, writes the parts one behind the other and flushes them to the disk. Returns what went wrong, if
-// anything; the file may then be there in part.
+// Creates or replaces the file and writes the parts one behind the other. Returns what went wrong, if anything; the file may
+// then be there in part.
 std::error_code write_parts(const std::filesystem::path& file, std::span<const std::string_view> parts, Way way);
 
-// Flushes a file that somebody has written.
+// Has the system begin to write a file to the disk. Nothing comes of it where that fails: what is wrong is found by flushing.
+void begin_to_flush(const std::filesystem::path& file);
+
+// Returns when a file that somebody has written is on the disk, or what went wrong.
 std::error_code flush_to_disk(const std::filesystem::path& file);
 
 }  // namespace scree

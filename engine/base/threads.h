@@ -2,6 +2,8 @@
 // not change a bit of any result: every index writes its own slot, and what is summed over indices is summed in their order.
 #pragma once
 
+#include <cstddef>
+
 namespace scree {
 
 // The processors this process may run on.
@@ -14,5 +16,18 @@ void use_threads(int count);
 
 // A loop over fewer rows than this is done before other threads have woken up.
 inline constexpr long rows_worth_sharing = 4096;
+
+// While it lives, one thread only if all the work is of fewer rows than that. The few loops that are shared for other reasons
+// than rows would not make up for threads that wait between them, which takes a processor as long as work does.
+class ThreadsForRows {
+ public:
+  explicit ThreadsForRows(std::size_t rows);
+  ~ThreadsForRows();
+  ThreadsForRows(const ThreadsForRows&) = delete;
+  ThreadsForRows& operator=(const ThreadsForRows&) = delete;
+
+ private:
+  int before_;
+};
 
 }  // namespace scree

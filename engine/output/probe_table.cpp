@@ -51,7 +51,7 @@ std::optional<std::string> probe_of_exact_column(const std::string& column) {
 ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,
                        const std::vector<std::string>& names)
     : file_(std::move(file)) {
-  write_text(file_, head(comments, names));
+  write_unflushed(file_, head(comments, names));
 }
 
 ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string>& comments,

@@ -11,7 +11,8 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 #include "engine/base/hash.h"
-#include "engine/packing/hdf5_image.h"
+#include "engine/base/hdf5_image.h"
+#include "engine/base/hdf5_reader.h"
 #include "engine/packing/packing.h"
 
 namespace scree::packing {
@@ -188,21 +189,21 @@ std::string digest(const std::string& key, const Lists& lists) {
   return hasher.hex();
 }
 
-Lists read_lists(const H5::H5File& in) {
+Lists read_lists(const Hdf5Reader& in) {
   Lists lists;
   for (const auto& [name, list] : {std::pair("nodes", &lists.nodes), std::pair("velocities", &lists.velocities),
                                    std::pair("poses", &lists.poses), std::pair("report", &lists.report),
                                    std::pair("orientations", &lists.orientations), std::pair("net_force", &lists.net_force)}) {
-    *list = doubles(in, name);
+    *list = in.doubles(name);
   }
   for (const auto& [name, list] :
        {std::pair("elements", &lists.elements), std::pair("blocks", &lists.blocks), std::pair("bodies", &lists.bodies),
         std::pair("outcome", &lists.outcome), std::pair("cells", &lists.cells), std::pair("surfaces", &lists.surfaces),
         std::pair("surface_bodies", &lists.surface_bodies)}) {
-    *list = integers(in, name);
+    *list = in.integers(name);
   }
-  lists.texts = texts(in, "texts");
-  if (number_attribute(in, "version") > oldest_version) lists.made_from = texts(in, "made_from");
+  lists.texts = in.texts("texts");
+  if (in.number_attribute("version") > oldest_version) lists.made_from = in.texts("made_from");
   return lists;
 }
 
@@ -222,16 +223,16 @@ bool is_read(std::int64_t version) {
 }
 
 // Who wrote it, for which dimension: reason enough to refuse it before anything else is read.
-void check_kind(const H5::H5File& in, const std::filesystem::path& file, int dimension) {
-  if (!in.attrExists("format") || text_attribute(in, "format") != format_name) {
+void check_kind(const Hdf5Reader& in, const std::filesystem::path& file, int dimension) {
+  if (!in.has_attribute("format") || in.text_attribute("format") != format_name) {
     throw refusal(file, "another kind of HDF5 file", "must be a packing", "Give the packing.h5 of a run");
   }
-  if (const std::int64_t version = number_attribute(in, "version"); !is_read(version)) {
+  if (const std::int64_t version = in.number_attribute("version"); !is_read(version)) {
     throw refusal(file, fmt::format("of format version {}", version),
                   fmt::format("this program reads versions {} and {}", oldest_version, format_version),
                   "Settle the scene again");
   }
-  if (const std::int64_t found = number_attribute(in, "dimension"); found != dimension) {
+  if (const std::int64_t found = in.number_attribute("dimension"); found != dimension) {
     throw refusal(file, fmt::format("in {}-D", found), fmt::format("this scene is in {}-D", dimension),
                   "Give a packing of a scene with the same dimension");
   }
@@ -250,7 +251,8 @@ void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   image.put_attribute("digest", digest(packing.key, lists));
   // Each list goes once it is in the image: a large packing would be in memory twice.
   const auto put = [&image](const char* name, auto& list, std::size_t width = 1) {
-    image.put(name, std::exchange(list, {}), width);
+    const auto values = std::exchange(list, {});
+    image.put(name, values, width);
   };
   put("nodes", lists.nodes, dim);
   put("elements", lists.elements, dim + 1);
@@ -275,14 +277,13 @@ Packing<dim> read(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     throw refusal(file, "", "no such file", "Check its path, or settle the scene again");
-  H5::Exception::dontPrint();
   try {
-    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    const Hdf5Reader in(file);
     check_kind(in, file, dim);
-    const std::string key = text_attribute(in, "key");
+    const std::string key = in.text_attribute("key");
     const Lists lists = read_lists(in);
-    if (digest(key, lists) == text_attribute(in, "digest")) return unpack<dim>(lists, key);
-  } catch (const H5::Exception&) {
+    if (digest(key, lists) == in.text_attribute("digest")) return unpack<dim>(lists, key);
+  } catch (const Hdf5Error&) {
     // said below, in words that help
   } catch (const std::logic_error&) {
     // a text that is not there, or a list longer than any
@@ -293,12 +294,11 @@ Packing<dim> read(const std::filesystem::path& file) {
 }
 
 std::optional<std::string> stored_key(const std::filesystem::path& file) {
-  H5::Exception::dontPrint();
   try {
-    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
-    if (text_attribute(in, "format") != format_name || !is_read(number_attribute(in, "version"))) return std::nullopt;
-    return text_attribute(in, "key");
-  } catch (const H5::Exception&) {
+    const Hdf5Reader in(file);
+    if (in.text_attribute("format") != format_name || !is_read(in.number_attribute("version"))) return std::nullopt;
+    return in.text_attribute("key");
+  } catch (const Hdf5Error&) {
     return std::nullopt;
   }
 }

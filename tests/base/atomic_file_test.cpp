@@ -70,6 +70,56 @@ TEST_F(AtomicFiles, GoThroughALinkToWhatItPointsTo) {
   EXPECT_EQ(contents(file("other/there")), "new");
 }
 
+TEST_F(AtomicFiles, WrittenTogetherHaveTheirNamesWhenAllAreOnTheDisk) {
+  write_text(file("a"), "old");
+  FilesTogether files;
+  {
+    const FilesTogether::Scope scope(files);
+    write_text(file("a"), "new");
+    write_text(file("b"), "first");
+    write_text(file("c"), "its own");
+    write_text(file("b"), "second");
+  }
+  EXPECT_EQ(contents(file("a")), "old");
+  EXPECT_FALSE(std::filesystem::exists(file("b")));
+  files.publish();
+  EXPECT_EQ(contents(file("a")), "new");
+  EXPECT_EQ(contents(file("b")), "second");
+  EXPECT_EQ(contents(file("c")), "its own");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 3);
+}
+
+TEST_F(AtomicFiles, WrittenTogetherAreNamedEvenIfOneAfterThemFails) {
+  const auto write_two = [&] {
+    FilesTogether files;
+    const FilesTogether::Scope scope(files);
+    write_text(file("a"), "whole");
+    write_text(file("nowhere") / "b", "never");
+  };
+  EXPECT_THROW(write_two(), RunError);
+  EXPECT_EQ(contents(file("a")), "whole");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 1);
+}
+
+TEST_F(AtomicFiles, WrittenTogetherAreNotNamedBehindOneThatCannotBe) {
+  FilesTogether files;
+  const FilesTogether::Scope scope(files);
+  write_text(file("a"), "first");
+  write_text(file("b"), "in the way of a folder");
+  write_text(file("c"), "names the one before");
+  std::filesystem::create_directories(file("b") / "full");
+  EXPECT_THROW(files.publish(), RunError);
+  EXPECT_EQ(contents(file("a")), "first");
+  EXPECT_FALSE(std::filesystem::exists(file("c")));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 2);
+  write_text(file("d"), "later");
+  write_unflushed(file("e"), "at once");
+  EXPECT_EQ(contents(file("e")), "at once");
+  EXPECT_FALSE(std::filesystem::exists(file("d")));
+  files.publish();
+  EXPECT_EQ(contents(file("d")), "later");
+}
+
 TEST_F(AtomicFiles, TakeNoPlaceOfADeviceAPipeOrAFolder) {
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   std::filesystem::create_directory(file("folder"));

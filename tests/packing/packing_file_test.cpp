@@ -2,10 +2,11 @@
 #include <limits>
 #include <sstream>
 
-#include <H5Cpp.h>
 #include <gmock/gmock.h>
+#include <hdf5.h>
 
 #include "engine/base/check.h"
+#include "engine/base/hdf5_handle.h"
 #include "engine/packing/packing.h"
 #include "tests/temp_folder.h"
 
@@ -95,6 +96,10 @@ void expect_same(const Packing<dim>& a, const Packing<dim>& b) {
   expect_same_surfaces(a.mesh, b.mesh);
 }
 
+Hdf5Handle writable(const std::filesystem::path& file) {
+  return {H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, file.string()};
+}
+
 std::string bytes_of(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -126,10 +131,11 @@ TEST_F(PackingFile, AFileOfTheVersionBeforeIsReadAndItsBodiesAreMadeFromNobodyKn
   for (mesh::Body& body : packing.mesh.bodies) body.made_from.clear();
   write(packing, file());
   {
-    H5::H5File older(file().string(), H5F_ACC_RDWR);
-    older.unlink("made_from");
-    const std::int64_t version = 5;
-    older.openAttribute("version").write(H5::PredType::NATIVE_INT64, &version);
+    const Hdf5Handle older = writable(file());
+    ASSERT_GE(H5Ldelete(older.id(), "made_from", H5P_DEFAULT), 0);
+    const std::int64_t number = 5;
+    const Hdf5Handle version(H5Aopen(older.id(), "version", H5P_DEFAULT), H5Aclose, "version");
+    ASSERT_GE(H5Awrite(version.id(), H5T_NATIVE_INT64, &number), 0);
   }
   expect_same(packing, read<3>(file()));
   EXPECT_EQ(stored_key(file()), packing.key);
@@ -179,12 +185,14 @@ TEST_F(PackingFile, TheKeyIsReadAlone) {
 
 // Of which C++ would make errors of its own.
 TEST_F(PackingFile, TextsThatAreNotThereAndListsLongerThanMemoryAreDamage) {
-  const auto refusal_with_empty = [&](const char* list, const H5::DataType& type, hsize_t size) {
+  const auto refusal_with_empty = [&](const char* list, hid_t type, hsize_t size) {
     write(awkward_packing<3>(), file());
     {
-      H5::H5File damaged(file().string(), H5F_ACC_RDWR);
-      damaged.unlink(list);
-      damaged.createDataSet(list, type, H5::DataSpace(1, &size));
+      const Hdf5Handle damaged = writable(file());
+      EXPECT_GE(H5Ldelete(damaged.id(), list, H5P_DEFAULT), 0);
+      const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "space");
+      const Hdf5Handle set(H5Dcreate2(damaged.id(), list, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                           list);
     }
     try {
       read<3>(file());
@@ -193,9 +201,10 @@ TEST_F(PackingFile, TextsThatAreNotThereAndListsLongerThanMemoryAreDamage) {
     }
     return std::string();
   };
-  const H5::StrType text(H5::PredType::C_S1, H5T_VARIABLE);
-  EXPECT_THAT(refusal_with_empty("texts", text, 3), HasSubstr("damaged (must be a whole packing)"));
-  EXPECT_THAT(refusal_with_empty("nodes", H5::PredType::NATIVE_DOUBLE, hsize_t{1} << 50), HasSubstr("damaged"));
+  const Hdf5Handle text(H5Tcopy(H5T_C_S1), H5Tclose, "text");
+  ASSERT_GE(H5Tset_size(text.id(), H5T_VARIABLE), 0);
+  EXPECT_THAT(refusal_with_empty("texts", text.id(), 3), HasSubstr("damaged (must be a whole packing)"));
+  EXPECT_THAT(refusal_with_empty("nodes", H5T_NATIVE_DOUBLE, hsize_t{1} << 50), HasSubstr("damaged"));
 }
 
 TEST_F(PackingFile, AMissingFileIsNamed) {

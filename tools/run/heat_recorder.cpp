@@ -96,7 +96,7 @@ void HeatRecorder<dim>::record(const thermal::HeatState& state) {
       keep(kept);
     });
   }
-  write_waiting(state.time < scene_.heat->time.until);
+  if (state.time < scene_.heat->time.until) write_beside();
 }
 
 template <int dim>
@@ -104,29 +104,59 @@ void HeatRecorder<dim>::record_passed(double time, const Eigen::VectorXd& temper
   add_row(time, temperature);
   if (!frame_due(scene_, time)) return;
   waiting_.push_back([this, time, temperature](bool beside) { write_frame(time, temperature, beside); });
-  if (static_cast<double>(waiting_.size() * temperature.size() * sizeof(double)) > most_bytes_waiting) write_waiting(true);
+  if (static_cast<double>(waiting_.size() * temperature.size() * sizeof(double)) > most_bytes_waiting) write_beside();
 }
 
 // Beside frames that are being written: a row takes less than to start a thread.
 template <int dim>
 void HeatRecorder<dim>::add_row(double time, const Eigen::VectorXd& temperature) {
-  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) finish();
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) wait_for_others();
   if (table_) table_->append(time, output::column_values(probes_, temperature, time));
 }
 
 template <int dim>
-void HeatRecorder<dim>::write_waiting(bool beside) {
+void HeatRecorder<dim>::write_beside() {
   if (waiting_.empty()) return;
-  finish();
-  pending_ = std::async(std::launch::async, [frames = std::exchange(waiting_, {}), beside] {
+  wait_for_others();
+  pending_ = std::async(std::launch::async, [this, frames = std::exchange(waiting_, {})] {
     use_threads(1);  // of this thread's own loops
-    for (const auto& write : frames) write(beside);
+    write_all(frames, true, *first_files_);
+    publish(*first_files_);
   });
 }
 
 template <int dim>
-void HeatRecorder<dim>::finish() {
+void HeatRecorder<dim>::write_all(const Frames& frames, bool beside, FilesTogether& files) {
+  const FilesTogether::Scope scope(files);
+  try {
+    for (const auto& write : frames) write(beside);
+  } catch (...) {
+    publish(files);  // what came before
+    throw;
+  }
+}
+
+// Frames that are lost must not be named when the run ends.
+template <int dim>
+void HeatRecorder<dim>::publish(FilesTogether& files) {
+  try {
+    files.publish();
+  } catch (...) {
+    unsaved_.reset();
+    throw;
+  }
+}
+
+template <int dim>
+void HeatRecorder<dim>::wait_for_others() {
   if (pending_.valid()) pending_.get();
+}
+
+template <int dim>
+void HeatRecorder<dim>::finish(FilesTogether& last) {
+  wait_for_others();
+  publish(*first_files_);  // of a run that has written no frame beside
+  write_all(std::exchange(waiting_, {}), false, last);
 }
 
 template <int dim>

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/atomic_file.h"
 #include "engine/output/series.h"
 #include "thermal/heat_run.h"
 #include "tools/run/heated_pile.h"
@@ -31,19 +32,28 @@ class HeatRecorder {
   // Adds the estimate of the space error to every frame from now on.
   void estimate_space_error() { space_error_ = true; }
 
-  // At an output from whose state the run can go on. Its frame and those passed before are written beside the computation;
-  // what goes wrong there is thrown by the next record() after it or by finish().
+  // At an output from whose state the run can go on. Its frame and those passed before are written beside the computation, the
+  // last by finish(); what goes wrong there is thrown by the next record() after it or by finish().
   void record(const thermal::HeatState& state);
   // At another.
   void record_passed(double time, const Eigen::VectorXd& temperature);
 
-  // Waits until everything is written.
-  void finish();
+  // What is to have its name before the first frame has.
+  void write_before_frames(std::unique_ptr<FilesTogether> files) { first_files_ = std::move(files); }
+
+  // Writes the last frame and waits until everything is written; what there is of it yet to be flushed waits in `last`.
+  void finish(FilesTogether& last);
 
  private:
+  // What writes each. `beside`: whether the run goes on meanwhile.
+  using Frames = std::vector<std::function<void(bool beside)>>;
+
   void add_row(double time, const Eigen::VectorXd& temperature);
-  // In a thread of their own, when those before are written. `beside`: whether the run goes on meanwhile.
-  void write_waiting(bool beside);
+  // The frames that wait, in a thread of their own, when those before are written.
+  void write_beside();
+  void wait_for_others();
+  void write_all(const Frames& frames, bool beside, FilesTogether& files);
+  void publish(FilesTogether& files);
   void keep(std::shared_ptr<const thermal::HeatState> state);
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
   // be some time behind the frames and the rows of the probes: a run that is killed computes that again.
@@ -63,7 +73,8 @@ class HeatRecorder {
   bool space_error_ = false;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
   std::shared_ptr<const thermal::HeatState> unsaved_;                               // of the last frame with a state
-  std::vector<std::function<void(bool beside)>> waiting_;                           // frames that no thread writes yet
+  Frames waiting_;                                                                  // frames that no thread writes yet
+  std::unique_ptr<FilesTogether> first_files_ = std::make_unique<FilesTogether>();
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/threads.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"
 #include "thermal/step_forecast.h"
@@ -56,10 +58,25 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
     check_interrupt();
     context.progress.update(work.part(time), fmt::format("{:.4g} of {:.4g} s", time, until));
   });
-  recorder.finish();
+  recorder.finish(context.last_files);
 }
 
-// Both call `begin` when nothing can be refused any more, before they write.
+// To be called when nothing can be refused any more. What `begin` writes has its name before the first frame has.
+template <int dim>
+std::unique_ptr<HeatRecorder<dim>> begin_recording(RunContext& context, const std::function<void()>& begin,
+                                                   const HeatOutcome<dim>& outcome, std::optional<double> from) {
+  auto first = std::make_unique<FilesTogether>();
+  {
+    const FilesTogether::Scope scope(*first);
+    begin();
+  }
+  if (from) first->publish();  // the first frame may be long in coming
+  auto recorder = std::make_unique<HeatRecorder<dim>>(context.scene, context.files, outcome.pile, *outcome.model, from);
+  recorder->write_before_frames(std::move(first));
+  if (context.estimate_space_error) recorder->estimate_space_error();
+  return recorder;
+}
+
 template <int dim>
 void run_in_time(RunContext& context, const std::function<void()>& begin, HeatOutcome<dim>& outcome) {
   const Scene& scene = context.scene;
@@ -67,11 +84,9 @@ void run_in_time(RunContext& context, const std::function<void()>& begin, HeatOu
   const auto from = state ? std::optional<double>(state->time) : std::nullopt;
   if (from) context.progress.note(fmt::format("heat: going on from {:.6g} s", *from));
   thermal::HeatRun run(outcome.model, scene.heat->time, std::move(state));
-  begin();
-  HeatRecorder<dim> recorder(scene, context.files, outcome.pile, *outcome.model, from);
-  if (context.estimate_space_error) recorder.estimate_space_error();
-  if (!from) recorder.record(run.state());
-  march(context, run, recorder);
+  const auto recorder = begin_recording(context, begin, outcome, from);
+  if (!from) recorder->record(run.state());
+  march(context, run, *recorder);
   outcome.state = run.state();
   outcome.solver = run.solver();
 }
@@ -80,13 +95,11 @@ void run_in_time(RunContext& context, const std::function<void()>& begin, HeatOu
 template <int dim>
 void find_steady(RunContext& context, const std::function<void()>& begin, HeatOutcome<dim>& outcome) {
   auto steady = thermal::find_steady_state(*outcome.model, context.scene.heat->time.solver);
-  begin();
-  HeatRecorder<dim> recorder(context.scene, context.files, outcome.pile, *outcome.model, std::nullopt);
-  if (context.estimate_space_error) recorder.estimate_space_error();
+  const auto recorder = begin_recording(context, begin, outcome, std::nullopt);
   outcome.state = std::move(steady.state);
   outcome.solver = std::move(steady.solver);
-  recorder.record(outcome.state);
-  recorder.finish();
+  recorder->record(outcome.state);
+  recorder->finish(context.last_files);
 }
 
 // How many blocks have one temperature each, if any.
@@ -151,6 +164,7 @@ void find_errors(RunContext& context, HeatOutcome<dim>& outcome) {
 template <int dim>
 HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) {
   const Scene& scene = context.scene;
+  const ThreadsForRows threads(packing.mesh.nodes.size());
   HeatOutcome<dim> outcome;
   outcome.pile = find_pile(context, packing);
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/atomic_file.h"
 #include "engine/base/progress.h"
 #include "engine/base/stage_clock.h"
 #include "tools/run/interrupt.h"
@@ -19,7 +20,8 @@ struct RunContext {
   Progress& progress;
   bool resume = false;
   bool estimate_space_error = false;
-  bool begun = false;  // the directory holds this run's files (begin_results.h)
+  bool begun = false;          // the directory holds this run's files (begin_results.h)
+  FilesTogether last_files{};  // which wait for the summary
   std::vector<StageCost> costs{};
   StageClock* running = nullptr;  // of the present stage, if any
 

@@ -97,6 +97,27 @@ Ending run_to_an_end(RunContext& context, Claim& claim, Json& summary) {
   }
 }
 
+void add_ending(Json& summary, const Ending& ending) {
+  summary["status"] = ending.status;
+  if (!ending.reasons.empty()) summary["reasons"] = ending.reasons;
+}
+
+// The summary behind the others, as it says what they are.
+void write_last_files(RunContext& context, Json& summary, Ending& ending) {
+  add_ending(summary, ending);
+  try {
+    {
+      const FilesTogether::Scope scope(context.last_files);
+      write_summary(context.files, summary);
+    }
+    context.last_files.publish();
+  } catch (const RunError& error) {
+    ending = {"failed", 1, {error.what()}};
+    add_ending(summary, ending);
+    write_summary(context.files, summary);
+  }
+}
+
 // The directory, for this run alone. What keeps the run out of it ends it, for whoever reads its events, too.
 Claim claim_directory(const Scene& scene, const RunFiles& files, Start start, Progress& progress) {
   try {
@@ -118,15 +139,16 @@ int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& 
   Claim claim = claim_directory(scene, files, start, progress);
   say_models(scene, progress);
   const bool resume = start == Start::resume;
-  RunContext context{scene, files, progress, resume,
-                     space_errors == SpaceErrors::estimated || (resume && was_estimated(files))};
+  RunContext context{.scene = scene,
+                     .files = files,
+                     .progress = progress,
+                     .resume = resume,
+                     .estimate_space_error = space_errors == SpaceErrors::estimated || (resume && was_estimated(files))};
   Json summary = opening_summary(context);
-  const Ending ending = run_to_an_end(context, claim, summary);
+  Ending ending = run_to_an_end(context, claim, summary);
   begin_results(context);
-  summary["status"] = ending.status;
-  if (!ending.reasons.empty()) summary["reasons"] = ending.reasons;
   add_stages(summary, context.costs);
-  write_summary(files, summary);
+  write_last_files(context, summary, ending);
   say_costs(context.costs, progress);
   progress.end({ending.status, ending.code, files.directory.string(), ending.reasons});
   for (const std::string& reason : ending.reasons) fmt::print(stderr, "scree: {}\n", reason);

@@ -8,7 +8,8 @@
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
 #include "engine/base/csv.h"
-#include "engine/packing/hdf5_image.h"
+#include "engine/base/hdf5_image.h"
+#include "engine/base/hdf5_reader.h"
 
 namespace scree::study {
 
@@ -42,7 +43,7 @@ std::string to_csv(const Table& table) {
 }
 
 void write_hdf5(const Table& table, const std::filesystem::path& file) {
-  packing::Hdf5Image image(sizeof(double) * table.columns.size() * table.rows());
+  Hdf5Image image(sizeof(double) * table.columns.size() * table.rows());
   std::vector<std::string> names;
   for (const Column& column : table.columns) {
     names.push_back(column.name);
@@ -53,18 +54,17 @@ void write_hdf5(const Table& table, const std::filesystem::path& file) {
 }
 
 Table read_table(const std::filesystem::path& file) {
-  H5::Exception::dontPrint();
   try {
-    const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+    const Hdf5Reader in(file);
     Table table;
-    for (const std::string& name : packing::texts(in, "columns")) {
+    for (const std::string& name : in.texts("columns")) {
       Column column{name};
-      column.is_text = in.openDataSet(name).getTypeClass() == H5T_STRING;
-      column.is_text ? void(column.texts = packing::texts(in, name)) : void(column.numbers = packing::doubles(in, name));
+      column.is_text = in.holds_texts(name);
+      column.is_text ? void(column.texts = in.texts(name)) : void(column.numbers = in.doubles(name));
       table.columns.push_back(std::move(column));
     }
     return table;
-  } catch (const H5::Exception&) {
+  } catch (const Hdf5Error&) {
     Problem problem;
     problem.key = "the table";
     problem.value = file.string();

@@ -2,16 +2,19 @@
 // and without times, so that equal contents give equal files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <H5Cpp.h>
+#include "engine/base/hdf5_handle.h"
 
-namespace scree::packing {
+namespace scree {
 
+// Everything throws Hdf5Error where there is no memory for it.
 class Hdf5Image {
   // Where HDF5 takes the file's memory from, and leaves it when it closes the file.
   struct Memory;
@@ -26,8 +29,8 @@ class Hdf5Image {
   void put_attribute(const std::string& name, const std::string& text);
   void put_attribute(const std::string& name, std::int64_t number);
   // A table with rows of `width` entries.
-  void put(const std::string& name, const std::vector<double>& values, std::size_t width = 1);
-  void put(const std::string& name, const std::vector<std::int64_t>& values, std::size_t width = 1);
+  void put(const std::string& name, std::span<const double> values, std::size_t width = 1);
+  void put(const std::string& name, std::span<const std::int64_t> values, std::size_t width = 1);
   void put(const std::string& name, const std::vector<std::string>& values);
 
   // Ends the file. Its bytes, which live as long as this.
@@ -35,14 +38,7 @@ class Hdf5Image {
 
  private:
   std::unique_ptr<Memory> memory_;
-  H5::H5File file_;
+  Hdf5Handle file_;
 };
 
-// Reading throws H5::Exception if an entry is missing or of another type.
-std::string text_attribute(const H5::H5File& file, const std::string& name);
-std::int64_t number_attribute(const H5::H5File& file, const std::string& name);
-std::vector<double> doubles(const H5::H5File& file, const std::string& name);
-std::vector<std::int64_t> integers(const H5::H5File& file, const std::string& name);
-std::vector<std::string> texts(const H5::H5File& file, const std::string& name);
-
-}  // namespace scree::packing
+}  // namespace scree

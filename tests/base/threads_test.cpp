@@ -1,0 +1,24 @@
+#include "engine/base/threads.h"
+
+#include <gtest/gtest.h>
+
+namespace scree {
+namespace {
+
+TEST(ThreadsForRows, AreOneWhileThereAreTooFewRowsToShareAndAsManyAsBeforeElse) {
+  const int before = threads_in_use();
+  use_threads(3);
+  {
+    const ThreadsForRows few(rows_worth_sharing - 1);
+    EXPECT_EQ(threads_in_use(), 1);
+  }
+  EXPECT_EQ(threads_in_use(), 3);
+  {
+    const ThreadsForRows many(rows_worth_sharing);
+    EXPECT_EQ(threads_in_use(), 3);
+  }
+  use_threads(before);
+}
+
+}  // namespace
+}  // namespace scree
