@@ -1,6 +1,8 @@
 #include "engine/base/atomic_file.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -116,11 +118,20 @@ FilesTogether::~FilesTogether() {
 void FilesTogether::add(const std::filesystem::path& temporary, const std::filesystem::path& file) {
   std::erase_if(waiting_, [&](const Waiting& earlier) { return earlier.temporary == temporary; });
   waiting_.push_back({temporary, file});
+  if (!since_) since_ = std::chrono::steady_clock::now();
   begin_to_flush(temporary);  // or the disk does nothing meanwhile
+}
+
+void FilesTogether::pass_on(FilesTogether& others) {
+  if (since_ && !others.since_) others.since_ = since_;
+  since_.reset();
+  std::move(waiting_.begin(), waiting_.end(), std::back_inserter(others.waiting_));
+  waiting_.clear();
 }
 
 void FilesTogether::publish() {
   const std::vector<Waiting> files = std::exchange(waiting_, {});
+  since_.reset();
   try {
     for (const Waiting& each : files) flush(each.temporary, each.file);
     for (const Waiting& each : files) name_written(each.temporary, each.file);

@@ -1,8 +1,10 @@
 // Files that are whole or not there.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,11 +55,18 @@ class FilesTogether {
   // One that has been written.
   void add(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
+  // All that wait here wait there, behind those.
+  void pass_on(FilesTogether& others);
+
+  // Since when the first of them waits, if any do.
+  [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> since() const { return since_; }
+
  private:
   struct Waiting {
     std::filesystem::path temporary, file;
   };
   std::vector<Waiting> waiting_;
+  std::optional<std::chrono::steady_clock::time_point> since_;
 };
 
 // What to say of a file that could not be written, for the system's error.

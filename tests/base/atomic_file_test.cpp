@@ -89,6 +89,23 @@ TEST_F(AtomicFiles, WrittenTogetherHaveTheirNamesWhenAllAreOnTheDisk) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 3);
 }
 
+TEST_F(AtomicFiles, WrittenTogetherMayWaitForOthers) {
+  FilesTogether first, last;
+  {
+    const FilesTogether::Scope scope(first);
+    write_text(file("a"), "first");
+  }
+  EXPECT_TRUE(first.since());
+  first.pass_on(last);
+  EXPECT_FALSE(first.since());
+  EXPECT_TRUE(last.since());
+  first.publish();
+  EXPECT_FALSE(std::filesystem::exists(file("a")));
+  last.publish();
+  EXPECT_FALSE(last.since());
+  EXPECT_EQ(contents(file("a")), "first");
+}
+
 TEST_F(AtomicFiles, WrittenTogetherAreNamedEvenIfOneAfterThemFails) {
   const auto write_two = [&] {
     FilesTogether files;

@@ -24,6 +24,9 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
 // the restart file takes as long as a frame of temperatures.
 constexpr std::chrono::seconds longest_unsaved{1};
 
+// Files that wait for others to be flushed with them. Flushing them all takes as long as flushing one.
+constexpr std::chrono::milliseconds longest_unflushed{50};
+
 // Temperatures of outputs that a step has passed, for frames: more are not kept in memory.
 constexpr double most_bytes_waiting = 64e6;
 
@@ -82,6 +85,7 @@ template <int dim>
 HeatRecorder<dim>::~HeatRecorder() {
   try {
     if (pending_.valid()) pending_.wait();
+    publish(*files_);
     if (unsaved_) save(*unsaved_);
   } catch (...) {
   }
@@ -120,9 +124,17 @@ void HeatRecorder<dim>::write_beside() {
   wait_for_others();
   pending_ = std::async(std::launch::async, [this, frames = std::exchange(waiting_, {})] {
     use_threads(1);  // of this thread's own loops
-    write_all(frames, true, *first_files_);
-    publish(*first_files_);
+    write_all(frames, true, *files_);
+    publish_in_time();
   });
+}
+
+// Unless somebody waits: then what is written next goes with these files.
+template <int dim>
+void HeatRecorder<dim>::publish_in_time() {
+  const auto left =
+      files_->since().value_or(std::chrono::steady_clock::now()) + longest_unflushed - std::chrono::steady_clock::now();
+  if (left <= left.zero() || !others_wait_.try_acquire_for(left)) publish(*files_);
 }
 
 template <int dim>
@@ -149,13 +161,17 @@ void HeatRecorder<dim>::publish(FilesTogether& files) {
 
 template <int dim>
 void HeatRecorder<dim>::wait_for_others() {
-  if (pending_.valid()) pending_.get();
+  if (!pending_.valid()) return;
+  others_wait_.release();
+  pending_.wait();
+  static_cast<void>(others_wait_.try_acquire());  // it may not have asked
+  pending_.get();
 }
 
 template <int dim>
 void HeatRecorder<dim>::finish(FilesTogether& last) {
   wait_for_others();
-  publish(*first_files_);  // of a run that has written no frame beside
+  files_->pass_on(last);
   write_all(std::exchange(waiting_, {}), false, last);
 }
 

@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <semaphore>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ class HeatRecorder {
   void record_passed(double time, const Eigen::VectorXd& temperature);
 
   // What is to have its name before the first frame has.
-  void write_before_frames(std::unique_ptr<FilesTogether> files) { first_files_ = std::move(files); }
+  void write_before_frames(std::unique_ptr<FilesTogether> files) { files_ = std::move(files); }
 
   // Writes the last frame and waits until everything is written; what there is of it yet to be flushed waits in `last`.
   void finish(FilesTogether& last);
@@ -53,6 +54,7 @@ class HeatRecorder {
   void write_beside();
   void wait_for_others();
   void write_all(const Frames& frames, bool beside, FilesTogether& files);
+  void publish_in_time();
   void publish(FilesTogether& files);
   void keep(std::shared_ptr<const thermal::HeatState> state);
   // Names the frames in their .pvd, then writes the restart file, which never promises more than the other files hold. Both may
@@ -74,7 +76,8 @@ class HeatRecorder {
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
   std::shared_ptr<const thermal::HeatState> unsaved_;                               // of the last frame with a state
   Frames waiting_;                                                                  // frames that no thread writes yet
-  std::unique_ptr<FilesTogether> first_files_ = std::make_unique<FilesTogether>();
+  std::unique_ptr<FilesTogether> files_ = std::make_unique<FilesTogether>();        // that are yet to be flushed
+  std::binary_semaphore others_wait_{0};                                            // for the thread that writes frames
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };
 
