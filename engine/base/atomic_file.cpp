@@ -19,6 +19,16 @@ thread_local FilesTogether* together = nullptr;  // where files of this thread w
   throw RunError(not_written(file, reason));
 }
 
+// The extension stays last: writers choose the format by it.
+std::filesystem::path temporary_of(const std::filesystem::path& file) {
+  return file.parent_path() / fmt::format(".part-{}", file.filename().string());
+}
+
+// Of a file that waits while the next of its name is written.
+std::filesystem::path earlier_of(const std::filesystem::path& file) {
+  return file.parent_path() / fmt::format(".earlier-{}", file.filename().string());
+}
+
 // The file that a name stands for: through a symbolic link its target, which need not be there yet.
 std::filesystem::path target_of(const std::filesystem::path& name) {
   std::filesystem::path file = name;
@@ -55,11 +65,10 @@ void flush_and_name(const std::filesystem::path& temporary, const std::filesyste
 // Calls `make` with the temporary name, which writes the file there, and `finish` with both names.
 template <class Make, class Finish>
 void replace_atomically(const std::filesystem::path& file, const Make& make, const Finish& finish) {
-  // The extension stays last: writers choose the format by it.
-  std::filesystem::path temporary = file;
-  temporary.replace_filename(fmt::format(".part-{}", file.filename().string()));
+  const std::filesystem::path temporary = temporary_of(file);
   std::error_code ignored;
   try {
+    if (together != nullptr) together->keep_earlier(file);
     if (const std::error_code reason = make(temporary)) fail(file, reason);
     finish(temporary, file);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -115,8 +124,21 @@ FilesTogether::~FilesTogether() {
   }
 }
 
+void remove_unfinished(const std::filesystem::path& file) {
+  std::filesystem::remove(temporary_of(file));
+  std::filesystem::remove(earlier_of(file));
+}
+
+void FilesTogether::keep_earlier(const std::filesystem::path& file) {
+  for (Waiting& each : waiting_) {
+    if (each.file == file) std::filesystem::rename(std::exchange(each.temporary, earlier_of(file)), earlier_of(file));
+  }
+}
+
 void FilesTogether::add(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  std::erase_if(waiting_, [&](const Waiting& earlier) { return earlier.temporary == temporary; });
+  const auto replaced = std::erase_if(waiting_, [&](const Waiting& earlier) { return earlier.file == file; });
+  std::error_code ignored;
+  if (replaced > 0) std::filesystem::remove(earlier_of(file), ignored);
   waiting_.push_back({temporary, file});
   if (!since_) since_ = std::chrono::steady_clock::now();
   begin_to_flush(temporary);  // or the disk does nothing meanwhile

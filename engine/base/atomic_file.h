@@ -52,7 +52,8 @@ class FilesTogether {
   // Throws RunError as the functions above do; those that do not have their names then never get them.
   void publish();
 
-  // One that has been written.
+  // One that has been written takes the place of an earlier one of that name, which is kept until then.
+  void keep_earlier(const std::filesystem::path& file);
   void add(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
   // All that wait here wait there, behind those.
@@ -68,6 +69,9 @@ class FilesTogether {
   std::vector<Waiting> waiting_;
   std::optional<std::chrono::steady_clock::time_point> since_;
 };
+
+// Removes what a run that was killed left of a file that it was writing. Throws std::filesystem::filesystem_error.
+void remove_unfinished(const std::filesystem::path& file);
 
 // What to say of a file that could not be written, for the system's error.
 std::string not_written(const std::filesystem::path& file, std::error_code reason);

@@ -34,7 +34,7 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
     : directory_(std::move(directory)), index_(directory_ / (name + ".pvd")), name_(std::move(name)) {
   try {
     fs::create_directories(directory_ / name_);
-    fs::remove(directory_ / fmt::format(".part-{}.pvd", name_));
+    remove_unfinished(index_);
     std::set<fs::path> kept;
     if (keep_until) {
       for (SeriesEntry& entry : read_index(index_)) {

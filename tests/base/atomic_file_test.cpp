@@ -89,6 +89,21 @@ TEST_F(AtomicFiles, WrittenTogetherHaveTheirNamesWhenAllAreOnTheDisk) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 3);
 }
 
+TEST_F(AtomicFiles, WrittenTogetherKeepTheEarlierOneIfTheNextFails) {
+  FilesTogether files;
+  const FilesTogether::Scope scope(files);
+  const auto fails = [](const std::filesystem::path& temporary) {
+    std::ofstream(temporary) << "half";
+    throw RunError("no more");
+  };
+  write_text(file("a"), "earlier");
+  EXPECT_THROW(write_atomically(file("a"), fails), RunError);
+  EXPECT_THROW(write_atomically(file("a"), fails), RunError);
+  files.publish();
+  EXPECT_EQ(contents(file("a")), "earlier");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 1);
+}
+
 TEST_F(AtomicFiles, WrittenTogetherMayWaitForOthers) {
   FilesTogether first, last;
   {

@@ -54,5 +54,13 @@ TEST(HardFalls, BlocksThatStartInEachOtherComeApartWithoutAnExplosion) {
   EXPECT_LT(run.summary["settle"]["top"].get<double>(), 0.35);
 }
 
+TEST(HardFalls, BlocksThatStartDeepInEachOtherAreNamed) {
+  const SceneRun run = fall("overlapping_start", {"bodies.cubes.lattice.spacing=[0.03, 0.03, 0.03]", "settle.limit=1 s"});
+  EXPECT_EQ(run.exit_status, 1);
+  const std::string reasons = run.summary["reasons"].dump();
+  EXPECT_NE(reasons.find("pressed into another"), std::string::npos) << reasons;
+  EXPECT_NE(reasons.find("overlap by 0.07 m before anything moves. Move them apart"), std::string::npos) << reasons;
+}
+
 }  // namespace
 }  // namespace scree::test

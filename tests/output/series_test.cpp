@@ -326,6 +326,7 @@ TEST_F(SeriesTest, WhatAKilledRunLeftHalfWrittenIsSweptAway) {
   std::ofstream(data_ / ".part-heat_000002.vtu") << "<VTKFile";     // killed while writing frame 2
   std::ofstream(data_ / "heat_000002.vtu") << "whole, not listed";  // killed before the index followed
   std::ofstream(folder_.path() / ".part-heat.pvd") << "<VTK";
+  std::ofstream(folder_.path() / ".earlier-heat.pvd") << "<VTK";
   const Series resumed(folder_.path(), "heat", 1);
   EXPECT_THAT(files_in(data_), ElementsAre("heat_000000.vtu", "heat_000001.vtu"));
   EXPECT_THAT(files_in(folder_.path()), ElementsAre("heat", "heat.pvd"));

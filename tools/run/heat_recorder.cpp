@@ -85,7 +85,7 @@ template <int dim>
 HeatRecorder<dim>::~HeatRecorder() {
   try {
     if (pending_.valid()) pending_.wait();
-    publish(*files_);
+    publish(files_);
     if (unsaved_) save(*unsaved_);
   } catch (...) {
   }
@@ -124,7 +124,7 @@ void HeatRecorder<dim>::write_beside() {
   wait_for_others();
   pending_ = std::async(std::launch::async, [this, frames = std::exchange(waiting_, {})] {
     use_threads(1);  // of this thread's own loops
-    write_all(frames, true, *files_);
+    write_all(frames, true, files_);
     publish_in_time();
   });
 }
@@ -133,8 +133,8 @@ void HeatRecorder<dim>::write_beside() {
 template <int dim>
 void HeatRecorder<dim>::publish_in_time() {
   const auto left =
-      files_->since().value_or(std::chrono::steady_clock::now()) + longest_unflushed - std::chrono::steady_clock::now();
-  if (left <= left.zero() || !others_wait_.try_acquire_for(left)) publish(*files_);
+      files_.since().value_or(std::chrono::steady_clock::now()) + longest_unflushed - std::chrono::steady_clock::now();
+  if (left <= left.zero() || !others_wait_.try_acquire_for(left)) publish(files_);
 }
 
 template <int dim>
@@ -171,7 +171,7 @@ void HeatRecorder<dim>::wait_for_others() {
 template <int dim>
 void HeatRecorder<dim>::finish(FilesTogether& last) {
   wait_for_others();
-  files_->pass_on(last);
+  files_.pass_on(last);
   write_all(std::exchange(waiting_, {}), false, last);
 }
 

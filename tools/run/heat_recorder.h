@@ -39,8 +39,8 @@ class HeatRecorder {
   // At another.
   void record_passed(double time, const Eigen::VectorXd& temperature);
 
-  // What is to have its name before the first frame has.
-  void write_before_frames(std::unique_ptr<FilesTogether> files) { files_ = std::move(files); }
+  // Files that are to have their names before the first frame has.
+  void publish_before_frames(FilesTogether& files) { files.pass_on(files_); }
 
   // Writes the last frame and waits until everything is written; what there is of it yet to be flushed waits in `last`.
   void finish(FilesTogether& last);
@@ -76,7 +76,7 @@ class HeatRecorder {
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
   std::shared_ptr<const thermal::HeatState> unsaved_;                               // of the last frame with a state
   Frames waiting_;                                                                  // frames that no thread writes yet
-  std::unique_ptr<FilesTogether> files_ = std::make_unique<FilesTogether>();        // that are yet to be flushed
+  FilesTogether files_;                                                             // that are yet to be flushed
   std::binary_semaphore others_wait_{0};                                            // for the thread that writes frames
   std::future<void> pending_;  // goes first, so that it ends before what it uses
 };

@@ -65,14 +65,14 @@ void march(RunContext& context, thermal::HeatRun& run, HeatRecorder<dim>& record
 template <int dim>
 std::unique_ptr<HeatRecorder<dim>> begin_recording(RunContext& context, const std::function<void()>& begin,
                                                    const HeatOutcome<dim>& outcome, std::optional<double> from) {
-  auto first = std::make_unique<FilesTogether>();
+  FilesTogether first;
   {
-    const FilesTogether::Scope scope(*first);
+    const FilesTogether::Scope scope(first);
     begin();
   }
-  if (from) first->publish();  // the first frame may be long in coming
+  if (from) first.publish();  // the first frame may be long in coming
   auto recorder = std::make_unique<HeatRecorder<dim>>(context.scene, context.files, outcome.pile, *outcome.model, from);
-  recorder->write_before_frames(std::move(first));
+  recorder->publish_before_frames(first);
   if (context.estimate_space_error) recorder->estimate_space_error();
   return recorder;
 }

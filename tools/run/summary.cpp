@@ -10,6 +10,7 @@
 #include "thermal/maximum_principle.h"
 #include "tools/run/keys.h"
 #include "tools/scene/doctor.h"
+#include "tools/scene/suspicions.h"
 
 namespace scree::run {
 
@@ -261,6 +262,7 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
         fmt::format("a block was pressed into another by {:.3g} of its size during the fall: one may have passed through the "
                     "other. Lower settle.step, raise settle.iterations, or make masses less unlike",
                     report.deepest_overlap));
+    for (const std::string& start : overlapping_bodies(mesh)) reasons.push_back(start + ". Move them apart");
   }
   if (free_blocks > 0 && report.lost_blocks.size() == free_blocks) {
     reasons.emplace_back(
