@@ -2,6 +2,7 @@
 // tenth of a small run, whether a file is read or not.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -37,5 +38,14 @@ class Hdf5Handle {
   std::int64_t id_;
   Closer closer_;
 };
+
+// Throws Hdf5Error unless it holds.
+void hdf5_expect(bool holds, const std::string& what);
+
+// HDF5 prints nothing from here on: what is wrong is thrown.
+void keep_hdf5_quiet();
+
+// The type of texts of so many characters; of as many as there are for 0.
+Hdf5Handle hdf5_text_type(std::size_t size = 0);
 
 }  // namespace scree

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <type_traits>
 
 #include <hdf5.h>
 
 namespace scree {
-
-static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>, "as Hdf5Handle takes them");
 
 struct Hdf5Image::Memory {
   void* bytes = nullptr;  // once the file is closed
@@ -35,19 +32,15 @@ struct Hdf5Image::Memory {
 
 namespace {
 
-void expect(herr_t status, const std::string& what) {
-  if (status < 0) throw Hdf5Error(what);
-}
-
 Hdf5Handle properties(hid_t kind) {
   return {H5Pcreate(kind), H5Pclose, "properties"};
 }
 
 Hdf5Handle in_memory(std::size_t growth, H5FD_file_image_callbacks_t memory) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong is thrown
+  keep_hdf5_quiet();
   const Hdf5Handle access = properties(H5P_FILE_ACCESS);
-  expect(H5Pset_fapl_core(access.id(), growth, 0), "a file in memory");
-  expect(H5Pset_file_image_callbacks(access.id(), &memory), "a file in memory");
+  hdf5_expect(H5Pset_fapl_core(access.id(), growth, 0) >= 0, "a file in memory");
+  hdf5_expect(H5Pset_file_image_callbacks(access.id(), &memory) >= 0, "a file in memory");
   return {H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "a file in memory"};
 }
 
@@ -55,17 +48,10 @@ Hdf5Handle scalar() {
   return {H5Screate(H5S_SCALAR), H5Sclose, "a scalar"};
 }
 
-// Of `size` characters, or as many as there are.
-Hdf5Handle text_type(std::size_t size = H5T_VARIABLE) {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a type of texts");
-  expect(H5Tset_size(type.id(), size), "a type of texts");
-  return type;
-}
-
 void put_attribute_of(const Hdf5Handle& file, const std::string& name, hid_t type, const void* value) {
   const Hdf5Handle attribute(H5Acreate2(file.id(), name.c_str(), type, scalar().id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                              name);
-  expect(H5Awrite(attribute.id(), type, value), name);
+  hdf5_expect(H5Awrite(attribute.id(), type, value) >= 0, name);
 }
 
 void put_rows(const Hdf5Handle& file, const std::string& name, hid_t type, const void* values, std::size_t count,
@@ -73,10 +59,10 @@ void put_rows(const Hdf5Handle& file, const std::string& name, hid_t type, const
   const hsize_t extent[2] = {count / width, width};
   const Hdf5Handle space(H5Screate_simple(width == 1 ? 1 : 2, extent, nullptr), H5Sclose, name);
   const Hdf5Handle timeless = properties(H5P_DATASET_CREATE);
-  expect(H5Pset_obj_track_times(timeless.id(), false), name);
+  hdf5_expect(H5Pset_obj_track_times(timeless.id(), false) >= 0, name);
   const Hdf5Handle set(H5Dcreate2(file.id(), name.c_str(), type, space.id(), H5P_DEFAULT, timeless.id(), H5P_DEFAULT), H5Dclose,
                        name);
-  if (count > 0) expect(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, transfer, values), name);
+  if (count > 0) hdf5_expect(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, transfer, values) >= 0, name);
 }
 
 }  // namespace
@@ -89,7 +75,7 @@ Hdf5Image::Hdf5Image(std::size_t expected)
 Hdf5Image::~Hdf5Image() = default;
 
 void Hdf5Image::put_attribute(const std::string& name, const std::string& text) {
-  put_attribute_of(file_, name, text_type(text.size() + 1).id(), text.c_str());
+  put_attribute_of(file_, name, hdf5_text_type(text.size() + 1).id(), text.c_str());
 }
 
 void Hdf5Image::put_attribute(const std::string& name, std::int64_t number) {
@@ -111,12 +97,12 @@ void Hdf5Image::put(const std::string& name, const std::vector<std::string>& val
   // Texts are converted on the way, in two buffers of 1 MB unless told otherwise, which are cleared for a name or two.
   const Hdf5Handle transfer = properties(H5P_DATASET_XFER);
   const std::size_t buffer = std::clamp<std::size_t>(16 * values.size(), 1 << 10, 1 << 20);
-  expect(H5Pset_buffer(transfer.id(), buffer, nullptr, nullptr), name);
-  put_rows(file_, name, text_type().id(), starts.data(), starts.size(), 1, transfer.id());
+  hdf5_expect(H5Pset_buffer(transfer.id(), buffer, nullptr, nullptr) >= 0, name);
+  put_rows(file_, name, hdf5_text_type().id(), starts.data(), starts.size(), 1, transfer.id());
 }
 
 std::string_view Hdf5Image::bytes() {
-  expect(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "an image");
+  hdf5_expect(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0, "an image");
   const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
   file_.close();
   if (size < 0 || memory_->bytes == nullptr) throw Hdf5Error("an image");

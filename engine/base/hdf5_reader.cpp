@@ -8,12 +8,8 @@ namespace scree {
 
 namespace {
 
-void expect(bool holds, const std::string& what) {
-  if (!holds) throw Hdf5Error(what);
-}
-
 Hdf5Handle opened(const std::filesystem::path& file) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong is thrown
+  keep_hdf5_quiet();
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file.string()};
 }
 
@@ -21,7 +17,7 @@ Hdf5Handle opened(const std::filesystem::path& file) {
 Hdf5Handle attribute_of(const Hdf5Handle& file, const std::string& name) {
   Hdf5Handle attribute(H5Aopen(file.id(), name.c_str(), H5P_DEFAULT), H5Aclose, name);
   const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, name);
-  expect(H5Sget_simple_extent_npoints(space.id()) == 1, name);
+  hdf5_expect(H5Sget_simple_extent_npoints(space.id()) == 1, name);
   return attribute;
 }
 
@@ -35,7 +31,7 @@ Hdf5Handle space_of(const Hdf5Handle& set, const std::string& name) {
 
 std::size_t size_of(const Hdf5Handle& space, const std::string& name) {
   const hssize_t size = H5Sget_simple_extent_npoints(space.id());
-  expect(size >= 0, name);
+  hdf5_expect(size >= 0, name);
   return static_cast<std::size_t>(size);
 }
 
@@ -43,7 +39,7 @@ template <class T>
 std::vector<T> numbers(const Hdf5Handle& file, const std::string& name, hid_t type) {
   const Hdf5Handle set = set_of(file, name);
   std::vector<T> values(size_of(space_of(set, name), name));
-  if (!values.empty()) expect(H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  if (!values.empty()) hdf5_expect(H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   return values;
 }
 
@@ -58,15 +54,15 @@ bool Hdf5Reader::has_attribute(const std::string& name) const {
 std::string Hdf5Reader::text_attribute(const std::string& name) const {
   const Hdf5Handle attribute = attribute_of(file_, name);
   const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose, name);
-  expect(H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0, name);
+  hdf5_expect(H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0, name);
   std::string text(H5Tget_size(type.id()), '\0');
-  expect(H5Aread(attribute.id(), type.id(), text.data()) >= 0, name);
+  hdf5_expect(H5Aread(attribute.id(), type.id(), text.data()) >= 0, name);
   return text.substr(0, text.find('\0'));
 }
 
 std::int64_t Hdf5Reader::number_attribute(const std::string& name) const {
   std::int64_t number = 0;
-  expect(H5Aread(attribute_of(file_, name).id(), H5T_NATIVE_INT64, &number) >= 0, name);
+  hdf5_expect(H5Aread(attribute_of(file_, name).id(), H5T_NATIVE_INT64, &number) >= 0, name);
   return number;
 }
 
@@ -83,14 +79,13 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   const Hdf5Handle space = space_of(set, name);
   std::vector<char*> starts(size_of(space, name));
   if (starts.empty()) return {};
-  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
-  expect(H5Tset_size(type.id(), H5T_VARIABLE) >= 0, name);
-  expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
+  const Hdf5Handle type = hdf5_text_type();
+  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
   const bool all_there = std::find(starts.begin(), starts.end(), nullptr) == starts.end();
   std::vector<std::string> values;
   if (all_there) values.assign(starts.begin(), starts.end());
   H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, starts.data());
-  expect(all_there, name);
+  hdf5_expect(all_there, name);
   return values;
 }
 

@@ -132,9 +132,9 @@ void HeatRecorder<dim>::write_beside() {
 // Unless somebody waits: then what is written next goes with these files.
 template <int dim>
 void HeatRecorder<dim>::publish_in_time() {
-  const auto left =
-      files_.since().value_or(std::chrono::steady_clock::now()) + longest_unflushed - std::chrono::steady_clock::now();
-  if (left <= left.zero() || !others_wait_.try_acquire_for(left)) publish(files_);
+  const auto now = std::chrono::steady_clock::now();
+  const auto due = files_.since().value_or(now) + longest_unflushed;
+  if (now >= due || !others_wait_.try_acquire_until(due)) publish(files_);
 }
 
 template <int dim>

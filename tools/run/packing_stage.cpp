@@ -114,14 +114,18 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
   std::error_code ignored;
   std::filesystem::remove(context.files.packing(), ignored);  // of another scene
   begin_results(context);
-  const auto free = std::count_if(blocks.blocks.begin(), blocks.blocks.end(),
-                                  [&](const mesh::Block& block) { return !blocks.bodies[block.body].fixed; });
-  auto packing = context.stage("settle", fmt::format("{} of {} blocks fall", free, blocks.blocks.size()),
+  auto packing = context.stage("settle", fmt::format("{} of {} blocks fall", free_blocks(blocks), blocks.blocks.size()),
                                [&] { return settle(context, blocks); });
   return {std::move(packing), false};
 }
 
 }  // namespace
+
+template <int dim>
+std::size_t free_blocks(const mesh::BlockMesh<dim>& mesh) {
+  return static_cast<std::size_t>(std::count_if(mesh.blocks.begin(), mesh.blocks.end(),
+                                                [&](const mesh::Block& block) { return !mesh.bodies[block.body].fixed; }));
+}
 
 bool is_placed(const Scene& scene) {
   return !scene.settle && !scene.packing;
@@ -215,5 +219,7 @@ template void keep_placed<2>(const RunContext&, const packing::Packing<2>&);
 template void keep_placed<3>(const RunContext&, const packing::Packing<3>&);
 template PackingOutcome<2> packing_stage<2>(RunContext&);
 template PackingOutcome<3> packing_stage<3>(RunContext&);
+template std::size_t free_blocks<2>(const mesh::BlockMesh<2>&);
+template std::size_t free_blocks<3>(const mesh::BlockMesh<3>&);
 
 }  // namespace scree::run

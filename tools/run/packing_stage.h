@@ -20,6 +20,10 @@ bool is_placed(const Scene& scene);
 template <int dim>
 Table<BodyId, mesh::Body> adopted_bodies(const Scene& scene, const packing::Packing<dim>& packing);
 
+// How many blocks are of bodies that move.
+template <int dim>
+std::size_t free_blocks(const mesh::BlockMesh<dim>& mesh);
+
 // Throws InputError if blocks would come to rest too far apart for the scene.
 void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks);
 

@@ -246,8 +246,6 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
   if (!scene.settle || !packing.settled) return {};
   const packing::SettleReport& report = *packing.settled;
   const mesh::BlockMesh<dim>& mesh = packing.mesh;
-  const auto free_blocks = static_cast<std::size_t>(std::count_if(
-      mesh.blocks.begin(), mesh.blocks.end(), [&](const mesh::Block& block) { return !mesh.bodies[block.body].fixed; }));
   std::vector<std::string> reasons;
   const double overlap = report.max_penetration / report.mean_edge;
   if (overlap > scene.settle->largest_overlap) {
@@ -264,7 +262,7 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
                     report.deepest_overlap));
     for (const std::string& start : overlapping_bodies(mesh)) reasons.push_back(start + ". Move them apart");
   }
-  if (free_blocks > 0 && report.lost_blocks.size() == free_blocks) {
+  if (const std::size_t free = free_blocks(mesh); free > 0 && report.lost_blocks.size() == free) {
     reasons.emplace_back(
         "every block that could move was lost: it fell past the lowest fixed body, or left the scene's surroundings. Put "
         "a fixed body below them, or slow them down");
