@@ -8,6 +8,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(hdf5 REQUIRED hdf5-serial)
+pkg_check_modules(yaml-cpp REQUIRED yaml-cpp)
 # Debian ships Bullet in both precisions; the packing needs double (engine/rigid/README.md).
 pkg_check_modules(bullet64 REQUIRED IMPORTED_TARGET bullet-float64)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonColor CommonCore CommonDataModel CommonMisc FiltersCore FiltersGeneral FiltersGeometry
