@@ -1,7 +1,9 @@
 #include "thermal/effective_conductivity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,6 +43,7 @@ class Sample {
     model_.loads.clear();
     model_.exchanges.clear();
     inside_ = parts_in(mesh, window);
+    find_cuts();
     if (model.varying) {
       throw InputError(problem("heat.effective_conductivity", "a material whose properties depend on temperature",
                                "must have constant properties", "Give the values at the temperature of interest"));
@@ -104,12 +107,36 @@ class Sample {
     solver_->prepare_steady(no_loss);
   }
 
-  // Steady temperatures [K] for the values of the held nodes and the loads of all [W].
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& held_values, const Eigen::VectorXd& load) const {
-    Eigen::VectorXd temperature = Eigen::VectorXd::Zero(load.size());
-    for (const NodeId node : model_.fixed_nodes) temperature[node.value()] = held_values[node.value()];
-    const Eigen::VectorXd missing = load - model_.conductance * temperature;
-    return temperature + free_->scatter(solver_->solve(free_->gather(missing)));
+  // Of each row the load that flows do not take away [W]. Flows are worked out one by one, so that both ends of each lose and
+  // get the same: by a product with the matrix stiff joints would lose and make heat.
+  [[nodiscard]] Eigen::VectorXd imbalance(const Eigen::VectorXd& temperature, const Eigen::VectorXd& load) const {
+    Eigen::VectorXd left = load;
+    for (Eigen::Index row = 0; row < left.size(); ++row) {
+      for (SparseMatrix::InnerIterator entry(model_.conductance, row); entry; ++entry)
+        left[row] -= entry.value() * (temperature[entry.index()] - temperature[row]);
+    }
+    return left;
+  }
+
+  struct Solution {
+    Eigen::VectorXd temperature;  // steady [K]
+    double last_correction;       // its largest change by the last refinement, as a part of it [-]
+  };
+
+  // For the values of the held nodes and the loads of all [W], refined as far as that helps.
+  [[nodiscard]] Solution solve(const Eigen::VectorXd& held_values, const Eigen::VectorXd& load) const {
+    constexpr double rounding = 1e-13;
+    Solution found{Eigen::VectorXd::Zero(load.size()), std::numeric_limits<double>::infinity()};
+    for (const NodeId node : model_.fixed_nodes) found.temperature[node.value()] = held_values[node.value()];
+    while (found.last_correction > rounding) {
+      const Eigen::VectorXd change = free_->scatter(solver_->solve(free_->gather(imbalance(found.temperature, load))));
+      if (change.isZero(0)) return {found.temperature, 0};
+      const Eigen::VectorXd refined = found.temperature + change;
+      const double correction = change.cwiseAbs().maxCoeff() / refined.cwiseAbs().maxCoeff();
+      if (correction > found.last_correction / 2) break;
+      found = {refined, correction};
+    }
+    return found;
   }
 
   // Mean over the window of the flux, voids at 0 [W/m2].
@@ -123,6 +150,47 @@ class Sample {
       sum += part.volume * flux<dim>(tensor, Point<dim>(along.data()));
     }
     return sum / window_.volume();
+  }
+
+  // Of an element that a side of the window cuts: of each corner the integral over the cut of its linear function [m2].
+  struct Cut {
+    mesh::Simplex<dim> nodes;
+    Eigen::Array<double, dim + 1, 1> shares;
+  };
+
+  [[nodiscard]] static std::size_t side_of(int axis, bool high) { return static_cast<std::size_t>(2 * axis) + (high ? 1 : 0); }
+
+  void find_cuts() {
+    for (const mesh::Block& block : mesh_.blocks) {
+      mesh::for_each_simplex(mesh_, block, [&](const mesh::Simplex<dim>& nodes, double weight) {
+        const auto corners = mesh::corners_of(mesh_, nodes);
+        for (int axis = 0; axis < dim; ++axis) {
+          for (const bool high : {false, true}) {
+            const auto shares = mesh::shares_on_side<dim>(corners, window_, axis, high, rounding_);
+            if (shares.sum() > 0) cuts_[side_of(axis, high)].push_back({nodes, weight * shares});
+          }
+        }
+      });
+    }
+  }
+
+  // How far the blocks on a side are in the mean from the temperature that nodes beyond it are held at [K].
+  [[nodiscard]] double mean_excess(const Eigen::VectorXd& excess, int axis, bool high) const {
+    double sum = 0;
+    double area = 0;
+    for (const Cut& cut : cuts_[side_of(axis, high)]) {
+      for (int corner = 0; corner <= dim; ++corner) sum += cut.shares[corner] * excess[model_.rows[cut.nodes[corner]].value()];
+      area += cut.shares.sum();
+    }
+    return area > 0 ? sum / area : 0;
+  }
+
+  // Mean over the window of the gradient along `axis` of temperatures of which nodes beyond are held at coordinates along
+  // `held` [K/m]. Where a side cuts elements, heat has come from those nodes to it, and the window is left with less than 1.
+  [[nodiscard]] double mean_gradient(const Eigen::VectorXd& temperature, int axis, int held) const {
+    const Eigen::VectorXd excess = temperature - coordinates(held);
+    const double more = mean_excess(excess, axis, true) - mean_excess(excess, axis, false);
+    return (axis == held ? 1 : 0) + more / window_.sizes()[axis];
   }
 
   [[nodiscard]] Eigen::VectorXd coordinates(int axis) const {
@@ -139,14 +207,20 @@ class Sample {
       return false;
     });
     const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(model_.capacity.size());
-    Tensor tensor;
-    for (int axis = 0; axis < dim; ++axis) tensor.col(axis) = -mean_flux(solve(coordinates(axis), no_load));
-    return tensor;
+    Tensor flux;
+    Tensor gradient;
+    for (int held = 0; held < dim; ++held) {
+      const Eigen::VectorXd temperature = solve(coordinates(held), no_load).temperature;
+      flux.col(held) = mean_flux(temperature);
+      for (int axis = 0; axis < dim; ++axis) gradient(axis, held) = mean_gradient(temperature, axis, held);
+    }
+    return -flux * gradient.inverse();
   }
 
   [[nodiscard]] double between_plates(int axis) {
     hold([&](NodeId node) { return beyond(node, axis); });
-    return -mean_flux(solve(coordinates(axis), Eigen::VectorXd::Zero(model_.capacity.size())))[axis];
+    const Eigen::VectorXd temperature = solve(coordinates(axis), Eigen::VectorXd::Zero(model_.capacity.size())).temperature;
+    return -mean_flux(temperature)[axis] / mean_gradient(temperature, axis, axis);
   }
 
   struct Side {
@@ -223,7 +297,8 @@ class Sample {
         for (const NodeId node : faces[side.face].nodes) load[model_.rows[node].value()] -= side.sign * side.area / dim;
       }
       if (!passes_through(load)) return std::nullopt;
-      const Eigen::VectorXd temperature = solve(Eigen::VectorXd::Zero(load.size()), load);
+      const auto [temperature, last_correction] = solve(Eigen::VectorXd::Zero(load.size()), load);
+      if (last_correction > 1e-6) return std::nullopt;  // lost in rounding
       for (const Side& side : *found) {
         double mean = 0;
         for (const NodeId node : faces[side.face].nodes) mean += temperature[model_.rows[node].value()] / dim;
@@ -239,8 +314,9 @@ class Sample {
   Aabb<dim> window_;
   double rounding_;  // [m]
   std::vector<PartInside<dim>> inside_;
-  std::vector<NodeId> rows_;        // a node of each row: tied ones share one (tied_nodes.h)
-  std::vector<std::size_t> group_;  // of each row: the row that stands for all it is joined with
+  std::array<std::vector<Cut>, std::size_t{2} * dim> cuts_;  // by side_of()
+  std::vector<NodeId> rows_;                                 // a node of each row: tied ones share one (tied_nodes.h)
+  std::vector<std::size_t> group_;                           // of each row: the row that stands for all it is joined with
   std::optional<FreeNodes> free_;
   std::optional<HeatSolver> solver_;
 };

@@ -18,7 +18,7 @@ struct EffectiveConductivity {
   using Tensor = Eigen::Matrix<double, dim, dim>;
   Tensor upper = Tensor::Zero();  // temperature linear on and outside the window's boundary [W/m/K]
   // Uniform flux through the window's sides [W/m/K]; nothing unless faces of blocks cover all of them, nor where blocks on two
-  // sides are not joined.
+  // sides are not joined, nor where joints are so stiff that it is lost in rounding.
   std::optional<Tensor> lower;
   Point<dim> along = Point<dim>::Zero();  // per axis, between two plates [W/m/K]
   double solid_fraction = 0;              // of the window's volume [-]
@@ -39,10 +39,10 @@ struct PartInside {
 template <int dim>
 std::vector<PartInside<dim>> parts_in(const mesh::BlockMesh<dim>& mesh, const Aabb<dim>& window);
 
-// Nodes on and outside the window's sides are held, where a temperature that is linear along the axis would hold them: exact in
-// a homogeneous solid, wherever the sides cut its elements; otherwise what is cut is off by the size of elements, and so may
-// the bounds be. `model` is that of `mesh`, whatever it holds fixed. Throws InputError for a window that holds no part of an
-// element.
+// Nodes on and outside the window's sides are held, where a temperature that is linear along the axis would hold them, and
+// fluxes related to the mean gradient that is left within the sides. Exact in a homogeneous solid, wherever they cut its
+// elements; otherwise the bounds are ones only if the sides cut none. `model` is that of `mesh`, whatever it holds fixed.
+// Throws InputError for a window that holds no part of an element.
 template <int dim>
 EffectiveConductivity<dim> effective_conductivity(const mesh::BlockMesh<dim>& mesh,
                                                   const Table<MaterialId, Material>& materials, const HeatModel& model,

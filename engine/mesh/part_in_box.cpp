@@ -57,6 +57,33 @@ Eigen::Array<double, corners, 1> shares_within(const Part<dim, corners>& part, c
          shares_within<dim, corners>(with_outer, box, rounding, side);
 }
 
+// Where a plane cuts an element that reaches to its inner side: a corner of the cut per column, by its weights of the
+// element's. Four of them (two and two corners beside the plane) are such that the first three and the last three are two
+// triangles.
+template <int dim>
+using Cut = Eigen::Matrix<double, dim + 1, Eigen::Dynamic, 0, dim + 1, 4>;
+
+template <int dim>
+Cut<dim> cut_at(const Eigen::Array<double, 1, dim + 1>& depth) {
+  Cut<dim> cut(dim + 1, 0);
+  const auto add = [&cut](const Eigen::Vector<double, dim + 1>& weights) {
+    cut.conservativeResize(Eigen::NoChange, cut.cols() + 1);
+    cut.rightCols(1) = weights;
+  };
+  if ((depth <= 0).all()) return cut;
+  using Weights = Eigen::Vector<double, dim + 1>;
+  for (Eigen::Index inner = 0; inner <= dim; ++inner) {
+    if (depth[inner] == 0) add(Weights::Unit(inner));
+    if (depth[inner] <= 0) continue;
+    for (Eigen::Index outer = 0; outer <= dim; ++outer) {
+      if (depth[outer] >= 0) continue;
+      const double way = depth[inner] / (depth[inner] - depth[outer]);
+      add((1 - way) * Weights::Unit(inner) + way * Weights::Unit(outer));
+    }
+  }
+  return cut;
+}
+
 }  // namespace
 
 template <int dim, int corners>
@@ -65,6 +92,26 @@ Eigen::Array<double, corners, 1> shares_in_box(const Corners<dim, corners>& simp
   if (box.contains(extent)) return Eigen::Array<double, corners, 1>::Constant(size<dim, corners>(simplex) / corners);
   return shares_within<dim, corners>({simplex, Eigen::Matrix<double, corners, corners>::Identity()}, box, rounding, 0);
 }
+
+template <int dim>
+Eigen::Array<double, dim + 1, 1> shares_on_side(const Corners<dim, dim + 1>& element, const Aabb<dim>& box, int axis, bool high,
+                                                double rounding) {
+  const double plane = high ? box.max()[axis] : box.min()[axis];
+  Eigen::Array<double, 1, dim + 1> depth = (high ? -1 : 1) * (element.row(axis).array() - plane);
+  depth = (depth.abs() <= rounding).select(0, depth);
+  const Cut<dim> cut = cut_at<dim>(depth);
+  Eigen::Array<double, dim + 1, 1> shares = Eigen::Array<double, dim + 1, 1>::Zero();
+  for (Eigen::Index first = 0; first + dim <= cut.cols(); ++first) {
+    const Eigen::Matrix<double, dim + 1, dim> weights = cut.template middleCols<dim>(first);
+    Corners<dim, dim> face = element * weights;
+    face.row(axis).setConstant(plane);
+    shares += (weights * shares_in_box<dim, dim>(face, box, rounding).matrix()).array();
+  }
+  return shares;
+}
+
+template Eigen::Array<double, 3, 1> shares_on_side<2>(const Corners<2, 3>&, const Aabb<2>&, int, bool, double);
+template Eigen::Array<double, 4, 1> shares_on_side<3>(const Corners<3, 4>&, const Aabb<3>&, int, bool, double);
 
 template Eigen::Array<double, 2, 1> shares_in_box<2, 2>(const Corners<2, 2>&, const Aabb<2>&, double);
 template Eigen::Array<double, 3, 1> shares_in_box<2, 3>(const Corners<2, 3>&, const Aabb<2>&, double);

@@ -1,4 +1,4 @@
-// How much of an element or a face lies in a box.
+// How much of an element or a face lies in a box, and of a box's side in an element.
 #pragma once
 
 #include "engine/mesh/block_mesh.h"
@@ -22,5 +22,12 @@ Corners<dim, corners> corners_of(const BlockMesh<dim>& mesh, const std::array<No
 // Corners nearer to a side than `rounding` [m] lie in it, and so may a face as a whole, which then counts.
 template <int dim, int corners>
 Eigen::Array<double, corners, 1> shares_in_box(const Corners<dim, corners>& simplex, const Aabb<dim>& box, double rounding);
+
+// The same over the part of a side of the box that lies in an element, where the element reaches into the box from there: a
+// face in the side counts for the element within. Corners nearer to a side than `rounding` [m] lie on it. Together [m2] (2-D:
+// [m]).
+template <int dim>
+Eigen::Array<double, dim + 1, 1> shares_on_side(const Corners<dim, dim + 1>& element, const Aabb<dim>& box, int axis, bool high,
+                                                double rounding);
 
 }  // namespace scree::mesh

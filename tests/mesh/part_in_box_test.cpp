@@ -35,6 +35,37 @@ TEST(PartInBox, SharesAreIntegralsOfLinearFunctions) {
   EXPECT_NEAR(part[1] + part[2], 11.0 / 48, 1e-15) << "the integral of x";
 }
 
+TEST(PartInBox, ASideCutsTheUnitTetrahedronInASmallerTriangle) {
+  Corners<3, 4> tetrahedron = Corners<3, 4>::Zero();
+  tetrahedron.rightCols<3>().setIdentity();
+  const Aabb<3> box(Point<3>(-1, -1, 0.25), Point<3>(1, 1, 0.5));
+  const auto low = shares_on_side<3>(tetrahedron, box, 2, false, 0);
+  EXPECT_NEAR(low.sum(), 0.75 * 0.75 / 2, 1e-15);
+  EXPECT_NEAR(low[3], 0.25 * 0.75 * 0.75 / 2, 1e-15) << "the integral of z";
+  EXPECT_NEAR(shares_on_side<3>(tetrahedron, box, 2, true, 0).sum(), 0.125, 1e-15);
+  EXPECT_EQ(shares_on_side<3>(tetrahedron, box, 0, true, 0).sum(), 0) << "a corner lies on the side";
+}
+
+// Two corners on either side: a rectangle of edges in the ways of the other two pairs.
+TEST(PartInBox, ASideCutsATetrahedronInAQuadrilateral) {
+  const Corners<3, 4> tetrahedron{{-1, 1, 0, 0}, {0, 0, -1, 1}, {0, 0, 1, 1}};
+  for (const bool high : {false, true}) {
+    const Aabb<3> box =
+        high ? Aabb<3>(Point<3>(-2, -2, -1), Point<3>(2, 2, 0.25)) : Aabb<3>(Point<3>(-2, -2, 0.25), Point<3>(2, 2, 2));
+    const auto shares = shares_on_side<3>(tetrahedron, box, 2, high, 0);
+    EXPECT_NEAR(shares.sum(), 1.5 * 0.5, 1e-15) << high;
+    EXPECT_NEAR(shares[2] + shares[3], 0.25 * 0.75, 1e-15) << "the integral of z";
+    EXPECT_NEAR(shares[0], shares[1], 1e-15);
+  }
+}
+
+TEST(PartInBox, AFaceInASideCountsForTheElementWithin) {
+  const Corners<2, 3> above{{0, 1, 0}, {0, 0, 1}}, below{{0, 1, 0}, {0, 0, -1}};
+  const Aabb<2> box(Point<2>(0.5, 1e-10), Point<2>(2, 2));
+  EXPECT_NEAR(shares_on_side<2>(above, box, 1, false, 1e-9).sum(), 0.5, 1e-15);
+  EXPECT_EQ(shares_on_side<2>(below, box, 1, false, 1e-9).sum(), 0);
+}
+
 TEST(PartInBox, AFaceInASideOfTheBoxCountsUpToRounding) {
   const Corners<3, 3> face{{0, 1, 1}, {0, 0, 1}, {1e-10, 0, -1e-10}};
   const auto share = [&](double low, double high) {

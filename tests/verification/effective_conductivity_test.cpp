@@ -70,6 +70,20 @@ TYPED_TEST(Homogenised, JointedCubesConductAsTheClosedFormSaysAlongEveryAxis) {
   EXPECT_FALSE(found.lower) << "the sides run through blocks";
 }
 
+// As many joints as edges, wherever it begins: what lies beyond its sides and is held there is not taken for a part of it.
+TYPED_TEST(Homogenised, JointedCubesConductTheSameInAWindowThatCutsElements) {
+  constexpr int dim = TypeParam::value;
+  const auto rock = jointed_rock<dim>(4, beta);
+  const double expected = k / (1 + k / (rock.joint * edge));
+  for (const double low : {0.1, 0.25, 0.4, 0.7, 0.85}) {
+    const auto found =
+        effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(low * edge, (low + 3) * edge));
+    for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis] / expected, 1, 1e-9) << low << ", " << axis;
+    EXPECT_GT(found.upper(0, 0), 1.1 * expected) << low;
+    EXPECT_LT(found.upper(0, 0), found.volume_mean) << low;
+  }
+}
+
 TYPED_TEST(Homogenised, BoundsHoldTheMeasurementBetweenThem) {
   constexpr int dim = TypeParam::value;
   const auto rock = jointed_rock<dim>(3, beta);
@@ -85,6 +99,41 @@ TYPED_TEST(Homogenised, BoundsHoldTheMeasurementBetweenThem) {
   }
   EXPECT_NEAR(found.volume_mean, k, 1e-12);
   EXPECT_LT((found.upper - found.upper.transpose()).norm(), 1e-9);
+}
+
+// A bond of bricks whose joints heat does not cross straight on, in a window that cuts elements of all of them: 4 % off on the
+// coarse mesh if what lies beyond the window counts as a part of it.
+TEST(EffectiveConductivity, OfABondOfBricksComesNearInAWindowThatCutsElements) {
+  const auto along = [](int cells) {
+    std::vector<test::Slab<2>> bricks(24);
+    for (std::size_t i = 0; i < bricks.size(); ++i) {
+      bricks[i].size = {0.2, 0.1};
+      bricks[i].cells = {2 * cells, cells};
+      const std::size_t row = i / 4;
+      bricks[i].low = {0.2 * static_cast<double>(i % 4) + (row % 2 == 1 ? 0.1 : 0.0), 0.1 * static_cast<double>(row)};
+    }
+    const auto mesh = test::slab_mesh<2>(bricks);
+    HeatOptions options = test::options_for(mesh, 300);
+    options.joint.law = JointConductance{60};
+    const auto model = make_heat_model(mesh, test::rock_only(), contact::find_contacts(mesh, {}), options);
+    return effective_conductivity<2>(mesh, test::rock_only(), model, {Point<2>(0.23, 0.17), Point<2>(0.63, 0.47)}).along;
+  };
+  const Point<2> fine = along(16);
+  EXPECT_LT((along(2) - fine).cwiseAbs().maxCoeff(), 0.01 * k) << along(2).transpose() << " beside " << fine.transpose();
+}
+
+// What a joint of 1e9 times an element's conductance loses in rounding is put right; where that cannot be done, no lower bound.
+TYPED_TEST(Homogenised, StiffJointsLeaveALowerBoundThatIsOneOrNone) {
+  constexpr int dim = TypeParam::value;
+  for (const double stiffness : {1e6, 1e9, 1e12}) {
+    const auto rock = jointed_rock<dim>(3, stiffness);
+    const auto found = effective_conductivity(rock.mesh, test::rock_only(), rock.model, window<dim>(0, 3 * edge));
+    for (int axis = 0; axis < dim; ++axis) EXPECT_NEAR(found.along[axis], k, 1e-5 * k) << stiffness;
+    ASSERT_EQ(found.lower.has_value(), stiffness < 1e10) << stiffness;
+    if (stiffness < 1e10) {
+      EXPECT_NEAR((*found.lower)(0, 0), k, 1e-5 * k) << stiffness;
+    }
+  }
 }
 
 TYPED_TEST(Homogenised, SolidRockIsItself) {
