@@ -48,7 +48,6 @@ class EnthalpyScheme : public TimeScheme {
     if (!serves(now)) linearise(first, now);
 
     Step result;
-    result.local_error = std::numeric_limits<double>::infinity();
     Eigen::VectorXd heat1 = Eigen::VectorXd::Zero(free_.size());
     if (!solve(from, heat1, first)) return result;
     heat1 = free_.gather(balance_.stored(from.temperature, first.temperature));
@@ -66,12 +65,12 @@ class EnthalpyScheme : public TimeScheme {
 
     result.change = last.temperature - from.temperature;
     result.error = from.error + free_.scatter(carried + local);
-    result.local_error = local.lpNorm<Eigen::Infinity>();
+    result.local = free_.scatter(local);
     const std::array<Stage, 2> stages{std::move(first), std::move(last)};
     if (const auto missed = path_.missed(from, length, stages, linear_.loss)) {
       const Eigen::VectorXd bent = solver_.estimate(free_.gather(*missed));
       result.error += free_.scatter(bent);
-      result.local_error = (local.cwiseAbs() + bent.cwiseAbs()).maxCoeff();
+      result.local = free_.scatter(local.cwiseAbs() + bent.cwiseAbs());
     }
     result.stages = {stages.begin(), stages.end()};
     return result;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Core>
-
 #include "thermal/heat_options.h"
 
 namespace scree::thermal {
@@ -15,11 +13,11 @@ class ErrorBudget {
   ErrorBudget(const TimeOptions& options, double safety)
       : tolerance_(options.tolerance), until_(options.until), safety_(safety) {}
 
-  // How much error a step of this length may add to the `error` that there is [K].
-  [[nodiscard]] double of_step(const Eigen::VectorXd& error, double time, double length) const {
-    const double left = tolerance_ / safety_ - largest(error);
+  // How much a step of this length may add to an error of which there is `error` [K].
+  [[nodiscard]] double of_step(double error, double time, double length) const {
+    const double left = tolerance_ / safety_ - error;
     const double spread = left * length / std::max(until_ - time, length);
-    return std::max(share_of_room * (aim * tolerance_ / safety_ - largest(error)),
+    return std::max(share_of_room * (aim * tolerance_ / safety_ - error),
                     std::clamp(spread, least_spread * tolerance_, most_spread * tolerance_));
   }
 
@@ -28,11 +26,7 @@ class ErrorBudget {
   [[nodiscard]] double of_jump() const { return most_spread * tolerance_; }
 
   // How wrong temperatures at outputs within a step may be beside the `error` at its end: no later step carries that on [K].
-  [[nodiscard]] double of_passed(const Eigen::VectorXd& error) const {
-    return std::max(0.0, aim * tolerance_ - safety_ * largest(error));
-  }
-
-  [[nodiscard]] static double largest(const Eigen::VectorXd& error) { return error.lpNorm<Eigen::Infinity>(); }
+  [[nodiscard]] double of_passed(double error) const { return std::max(0.0, aim * tolerance_ - safety_ * error); }
 
  private:
   // A step may add this share of the room left below the tolerance, so that the sum stays below it however many steps there

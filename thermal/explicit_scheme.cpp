@@ -35,10 +35,9 @@ class ExplicitScheme : public TimeScheme {
     const Eigen::VectorXd driven = drives_.vary() ? drive_change(from, length) : Eigen::VectorXd::Zero(slope.size()).eval();
     const Eigen::VectorXd moved = result.change - length * error_slope;
     const Eigen::VectorXd second = inverse_.cwiseProduct(driven - balance_.lost(moved, linear_));
-    const Eigen::VectorXd local = -0.5 * length * second;
-    result.error = from.error + length * error_slope + local;
+    result.local = -0.5 * length * second;
+    result.error = from.error + length * error_slope + result.local;
     result.stages = {{1, from.time, from.temperature}};
-    result.local_error = local.lpNorm<Eigen::Infinity>();
     return result;
   }
 

@@ -10,6 +10,7 @@
 #include "thermal/choose_scheme.h"
 #include "thermal/drive_defect.h"
 #include "thermal/error_budget.h"
+#include "thermal/error_growth.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/passed_outputs.h"
@@ -25,6 +26,8 @@ namespace {
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
+// How many times the error of a step, of third order, is that of half of it.
+constexpr double twice_too_long = 8;
 
 }  // namespace
 
@@ -36,6 +39,7 @@ class HeatRun::Implementation {
         options_(checked(options)),
         scheme_(choose_scheme(model_, options)),
         budget_(options, scheme_.scheme->safety()),
+        growth_(model_),
         bookkeeper_(model_, scheme_.scheme->sums()),
         drives_(model_),
         passed_(model_, options) {
@@ -45,6 +49,7 @@ class HeatRun::Implementation {
     state_.ledger = bookkeeper_.open(state_.temperature);
     state_.given.include(model_.initial);
     include_drive(0);
+    if (growth_.counts()) growth_.include(range_to_come());
     state_.reached.include(state_.temperature);
     if (model_.lumped) state_.lumping = lumping_.emplace(model_).start();
   }
@@ -61,6 +66,8 @@ class HeatRun::Implementation {
     if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
     scheme_.scheme->take_matrix(state_.matrix);
+    growth_.include(state_.given);
+    growth_.include(state_.reached);
     // The matrix that is there again was counted when it was made.
     earlier_factorisations_ = state_.factorisations - scheme_.scheme->factorisations();
   }
@@ -97,7 +104,7 @@ class HeatRun::Implementation {
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
  private:
-  static constexpr auto largest = ErrorBudget::largest;
+  [[nodiscard]] static double largest(const Eigen::VectorXd& error) { return error.lpNorm<Eigen::Infinity>(); }
 
   // One interval between outputs, several if steps are that long, or what is left of one. A run can go on from its end.
   struct Span {
@@ -157,7 +164,7 @@ class HeatRun::Implementation {
 
   void smooth_steps(double begin, double length, const TimeBends& bends, const Progress& progress) {
     if (state_.next_step <= 0) {
-      state_.next_step = scheme_.scheme->first_step(instant(begin), budget_.of_step(state_.error, begin, length));
+      state_.next_step = scheme_.scheme->first_step(instant(begin), budget_.of_step(may_become(state_.error), begin, length));
     }
     StepGrid grid(begin, length, state_.next_step);
     while (!grid.done()) {
@@ -169,17 +176,23 @@ class HeatRun::Implementation {
       const std::optional<DriveDefect> missed = missed_in(grid, bends);
       const bool finest = grid.level() == StepGrid::max_level;
       const double may_add = allowed_in(missed, grid);
-      if (missed && largest(missed->free) > may_add && !finest) {
+      if (missed && may_become(missed->free) > may_add && !finest) {
         grid.refine();
         continue;
       }
       Step step = missed ? step_that_misses(*missed, grid) : scheme_.scheme->step(instant(grid.time()), dt);
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
-      if (!(step.local_error <= may_add)) {
-        refine(grid, step.local_error / may_add);
+      if (step.local.size() == 0) {
+        refine(grid, twice_too_long);
         continue;
       }
-      if (missed && largest(step.error) - largest(state_.error) > may_add && !finest) {
+      const Eigen::VectorXd after = state_.temperature + step.change;
+      const double local = growth_.largest(step.local, after), error = growth_.largest(step.error, after);
+      if (!(local <= may_add)) {
+        refine(grid, local / may_add);
+        continue;
+      }
+      if (missed && error - may_become(state_.error) > may_add && !finest) {
         ++state_.rejected_steps;
         grid.refine();
         continue;
@@ -187,15 +200,15 @@ class HeatRun::Implementation {
       const PassedOutputs::Way way{grid.time(), dt, state_.temperature, step.change};
       const StepEnds ends = passed_.ends_behind(way, state_.earlier);
       const double between = passed_.error(way, ends);
-      if (between > budget_.of_passed(step.error)) {
+      if (between > budget_.of_passed(largest(step.error))) {
         ++state_.rejected_steps;
         grid.refine();
         continue;
       }
       grid.advance();
       state_.next_step = dt;
-      for (double expected = 8 * step.local_error; state_.next_step < 4 * dt; expected *= 8) {
-        if (expected > growth_margin * budget_.of_step(step.error, grid.time(), 2 * state_.next_step)) break;
+      for (double expected = twice_too_long * local; state_.next_step < 4 * dt; expected *= twice_too_long) {
+        if (expected > growth_margin * budget_.of_step(error, grid.time(), 2 * state_.next_step)) break;
         // At the interval's end the next one's grid begins, whose steps may be longer.
         if (!grid.done() && !grid.coarsen()) break;
         state_.next_step *= 2;
@@ -231,7 +244,7 @@ class HeatRun::Implementation {
     Instant from = instant(grid.time());
     from.error = held(model_, std::move(from.error), missed.held);
     Step step = scheme_.scheme->step(from, grid.step());
-    if (!std::isfinite(step.local_error)) return step;  // it was not solved, and has no error
+    if (step.local.size() == 0) return step;  // it was not solved, and has no error
     step.error = held(model_, step.error + missed.free, Eigen::VectorXd::Zero(missed.held.size()));
     return step;
   }
@@ -239,8 +252,8 @@ class HeatRun::Implementation {
   // As often as a third-order local error needs, from `excess` times what is allowed.
   void refine(StepGrid& grid, double excess) {
     ++state_.rejected_steps;
-    if (!std::isfinite(excess)) excess = 8;
-    for (double left = excess; left > 1; left /= 8) {
+    if (!std::isfinite(excess)) excess = twice_too_long;
+    for (double left = excess; left > 1; left /= twice_too_long) {
       if (grid.level() == StepGrid::max_level) {
         throw RunError(
             fmt::format("The time steps fell below {:g} s at {:g} s without reaching the tolerance of {:g} K. Ask for a "
@@ -262,17 +275,36 @@ class HeatRun::Implementation {
 
   // How much error the step that the grid is at may add [K].
   [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid) const {
-    const double smooth = budget_.of_step(state_.error, grid.time(), grid.step());
-    const bool jumps = missed && std::max(largest(missed->free), largest(missed->held)) > smooth;
+    const double smooth = budget_.of_step(may_become(state_.error), grid.time(), grid.step());
+    const bool jumps = missed && std::max(may_become(missed->free), largest(missed->held)) > smooth;
     return jumps ? std::max(smooth, budget_.of_jump()) : smooth;
   }
+
+  // What the errors of nodes may become [K].
+  [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, state_.temperature); }
 
   [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
 
   void include_drive(double time) {
-    const Drive& drive = drives_.at(time);
-    state_.given.include(drive.fixed);
-    for (const ExchangeRates& rates : drive.exchanges) state_.given.include(rates.surroundings);
+    include(drives_.at(time), state_.given);
+    growth_.include(state_.given);
+  }
+
+  static void include(const Drive& drive, TemperatureRange& range) {
+    range.include(drive.fixed);
+    for (const ExchangeRates& rates : drive.exchanges) range.include(rates.surroundings);
+  }
+
+  // From outside, over the whole run. Looks that are no multiples of each other meet every part of a swing.
+  [[nodiscard]] TemperatureRange range_to_come() {
+    constexpr int looks = 64;
+    constexpr double golden = 0.6180339887498949;
+    TemperatureRange range = state_.given;
+    for (int look = 1; drives_.vary() && look <= looks; ++look) {
+      const double turns = look * golden;
+      include(drives_.at(options_.until * (turns - std::floor(turns))), range);
+    }
+    return range;
   }
 
   // `between`: the error at outputs that the step passes [K].
@@ -291,6 +323,7 @@ class HeatRun::Implementation {
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
     state_.reached.include(state_.temperature);
+    growth_.include(state_.reached);
     if (lumping_) lumping_->advance(state_.temperature, drives_.at(time), dt, state_.lumping);
     if (drives_.vary()) include_drive(time);
     if (progress) progress(time);
@@ -301,6 +334,7 @@ class HeatRun::Implementation {
   TimeOptions options_;
   ChosenScheme scheme_;  // refers to model_
   ErrorBudget budget_;
+  ErrorGrowth growth_;
   Bookkeeper bookkeeper_;
   Drives drives_;
   PassedOutputs passed_;

@@ -56,14 +56,13 @@ class LinearScheme : public TimeScheme {
     Eigen::MatrixXd rest = capacity_.asDiagonal() * d1;
     rest.col(0) += driven / from_first;
     const Eigen::MatrixXd d2 = solve(rest);
-    const Eigen::VectorXd local = local_error(heat0, d1, d2);
 
     Step result;
     const Eigen::MatrixXd change = free_.scatter(d1 + from_first * d2);
     last.temperature = start2 + change.col(0);
     result.change = last.temperature - from.temperature;
-    result.error = from.error + change.col(1) + free_.scatter(local);
-    result.local_error = local.lpNorm<Eigen::Infinity>();
+    result.local = free_.scatter(local_error(heat0, d1, d2));
+    result.error = from.error + change.col(1) + result.local;
     if (drives_.vary()) {
       first.temperature = start1 + free_.scatter(d1.col(0));
       result.stages = {std::move(first), std::move(last)};

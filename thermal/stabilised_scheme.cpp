@@ -149,13 +149,11 @@ class StabilisedScheme : public TimeScheme {
   // Change and errors of the step that has been taken.
   Step along_tangent(const Instant& from, double estimate) const {
     Step result;
-    result.change.resize(start_.rows());
-    result.error.resize(start_.rows());
-    result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
-      const double local = inverse_[row] > 0 ? estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) : 0;
+    for (Eigen::VectorXd* each : {&result.change, &result.error, &result.local}) each->resize(start_.rows());
+    for_each_shortly(start_.rows(), [&](Eigen::Index row) {
+      result.local[row] = inverse_[row] > 0 ? estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) : 0;
       result.change[row] = newer_(row, 0);
-      result.error[row] = from.error[row] + newer_(row, 1) + local;
-      return std::abs(local);
+      result.error[row] = from.error[row] + newer_(row, 1) + result.local[row];
     });
     return result;
   }
@@ -193,15 +191,15 @@ class StabilisedScheme : public TimeScheme {
     const Eigen::VectorXd heating = balance_.heating(end, drive);
     const Eigen::VectorXd capacity = capacity_at(model_, end);
     const auto beside = beside_held(from, length);
-    result.local_error = largest_of_each(start_.rows(), [&](Eigen::Index row) {
-      if (inverse_[row] == 0) return 0.0;
+    for_each_shortly(start_.rows(), [&](Eigen::Index row) {
+      if (inverse_[row] == 0) return;
       const double along = start_(row, 0) - older_(row, 0);
       const double bent = length * inverse_[row] * heating[row] - along;
       double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
       if (beside) local += length * inverse_[row] * (*beside)[row];
       const double shrinks = linear_.capacity[row] / capacity[row];
       result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
-      return std::abs(shrinks * local);
+      result.local[row] = shrinks * local;
     });
   }
 
@@ -322,9 +320,7 @@ class StabilisedScheme : public TimeScheme {
 
   // x of D.
   void warm() {
-    for_each_stretch([&](Eigen::Index row, Eigen::Index rows) {
-      for (Eigen::Index i = row; i < row + rows; ++i) warm(newer_, i, warmer_);
-    });
+    for_each_shortly(start_.rows(), [&](Eigen::Index row) { warm(newer_, row, warmer_); });
   }
   void warm(const Columns& heat, Eigen::Index row, Columns& warmer) const {
     warmer.row(row) << BentStorage::rise(storage_.slope()[row], heat(row, 0)), heat(row, 1);

@@ -35,7 +35,7 @@ struct Step {
   Eigen::VectorXd change;  // of the temperature [K]
   Eigen::VectorXd error;   // global error after the step, per node; zero at fixed nodes [K]
   std::vector<Stage> stages;
-  double local_error = 0;  // largest entry of this step's own contribution to the error [K]
+  Eigen::VectorXd local;  // this step's own contribution to the error, per node; of no size if it was not solved [K]
 };
 
 // A one-step scheme with its estimate of the global error. Beside the temperatures T a scheme follows, in exact arithmetic, a
@@ -45,7 +45,7 @@ class TimeScheme {
  public:
   virtual ~TimeScheme() = default;
 
-  // A local error that is not finite says that the step is too long to be solved.
+  // Of one that is too long to be solved there is no local error.
   virtual Step step(const Instant& from, double length) = 0;
 
   // A step whose local error is about `allowed` [K] from a state whose past is unknown [s]; infinite if nothing changes.

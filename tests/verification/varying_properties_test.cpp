@@ -148,7 +148,7 @@ TEST(VaryingProperties, RoundingAtStiffJointsMakesNoNewMatrices) {
         constexpr int steps = 20;
         for (; at.time < steps * 60; at.time += 60) {
           const Step step = scheme->step(at, 60);
-          ASSERT_TRUE(std::isfinite(step.local_error)) << varying << " " << beta;
+          ASSERT_GT(step.local.size(), 0) << varying << " " << beta;
           bookkeeper.book(step, at.temperature, 60, ledger);
           at.temperature += step.change;
           at.error = step.error;

@@ -1,0 +1,63 @@
+#include "thermal/error_growth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/check.h"
+#include "engine/base/phases.h"
+#include "thermal/heat_balance.h"
+
+namespace scree::thermal {
+
+namespace {
+
+// Of a range. A dip of c that lies between two looks only makes steps longer than they should be, which `time_error` tells.
+constexpr int looks = 256;
+// What a capacity may be above its least before errors count for more, as a part of that. Errors of a body that can lose none
+// need the room, and its temperatures mostly do not come back to where c was less.
+constexpr double mild = 0.5;
+
+// [J/kg/K]; infinite where a formula has no value, as where no node comes.
+double specific_heat(const Curve& curve, double temperature) {
+  try {
+    return curve(temperature);
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+}  // namespace
+
+ErrorGrowth::ErrorGrowth(const HeatModel& model) : model_(model) {
+  if (!model.varying) return;
+  const auto& curves = model.varying->specific_heat;
+  varies_ = std::any_of(curves.begin(), curves.end(), [](const Curve& curve) { return !curve.constant(); });
+  least_.resize(curves.size());
+}
+
+void ErrorGrowth::include(const TemperatureRange& range) {
+  if (!varies_ || (range.least >= range_.least && range.largest <= range_.largest)) return;
+  range_.least = std::min(range_.least, range.least);
+  range_.largest = std::max(range_.largest, range.largest);
+  for (std::size_t material = 0; material < least_.size(); ++material) {
+    const Curve& curve = model_.varying->specific_heat[material];
+    // Anew, so that a run that goes on from a state knows what an uninterrupted one does.
+    least_[material] = std::numeric_limits<double>::infinity();
+    for (int look = 0; look <= looks; ++look) {
+      const double at = range_.least + (range_.largest - range_.least) * look / looks;
+      least_[material] = std::min(least_[material], specific_heat(curve, at));
+    }
+  }
+}
+
+double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd& temperature) const {
+  if (!varies_) return error.lpNorm<Eigen::Infinity>();
+  const VaryingProperties& properties = *model_.varying;
+  const Eigen::VectorXd capacity = capacity_at(model_, temperature);
+  return largest_of_each(error.size(), [&](Eigen::Index row) {
+    const auto material = static_cast<std::size_t>(properties.material[NodeId(static_cast<std::size_t>(row))]);
+    return std::abs(error[row]) * std::max(1.0, capacity[row] / (properties.mass[row] * least_[material]) - mild);
+  });
+}
+
+}  // namespace scree::thermal

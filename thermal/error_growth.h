@@ -1,0 +1,32 @@
+// How errors grow where a specific heat falls. A node keeps the heat that it is wrong by, so one that comes out of a peak of
+// latent heat is wrong by as many times more kelvin as its capacity has fallen. Step control goes by what errors may become.
+#pragma once
+
+#include <vector>
+
+#include "thermal/heat_model.h"
+#include "thermal/heat_run.h"
+
+namespace scree::thermal {
+
+class ErrorGrowth {
+ public:
+  explicit ErrorGrowth(const HeatModel& model);
+
+  // Whether any specific heat varies. Otherwise errors do not grow.
+  [[nodiscard]] bool counts() const { return varies_; }
+
+  // Temperatures stay in this range from now on, and in those given before.
+  void include(const TemperatureRange& range);
+
+  // The largest of what errors of nodes at these temperatures may become within that range [K].
+  [[nodiscard]] double largest(const Eigen::VectorXd& error, const Eigen::VectorXd& temperature) const;
+
+ private:
+  const HeatModel& model_;
+  bool varies_ = false;        // any specific heat
+  TemperatureRange range_;     // that `least_` is of
+  std::vector<double> least_;  // specific heat of each material that varies there [J/kg/K]
+};
+
+}  // namespace scree::thermal
