@@ -35,8 +35,8 @@ ErrorGrowth::ErrorGrowth(const HeatModel& model) : model_(model) {
   least_.resize(curves.size());
 }
 
-void ErrorGrowth::include(const TemperatureRange& range) {
-  if (!varies_ || (range.least >= range_.least && range.largest <= range_.largest)) return;
+bool ErrorGrowth::include(const TemperatureRange& range) {
+  if (!varies_ || (range.least >= range_.least && range.largest <= range_.largest)) return false;
   range_.least = std::min(range_.least, range.least);
   range_.largest = std::max(range_.largest, range.largest);
   for (std::size_t material = 0; material < least_.size(); ++material) {
@@ -48,16 +48,22 @@ void ErrorGrowth::include(const TemperatureRange& range) {
       least_[material] = std::min(least_[material], specific_heat(curve, at));
     }
   }
+  return true;
 }
 
-double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd& temperature) const {
-  if (!varies_) return error.lpNorm<Eigen::Infinity>();
+Eigen::VectorXd ErrorGrowth::at(const Eigen::VectorXd& temperature) const {
+  if (!varies_) return {};
   const VaryingProperties& properties = *model_.varying;
-  const Eigen::VectorXd capacity = capacity_at(model_, temperature);
-  return largest_of_each(error.size(), [&](Eigen::Index row) {
+  Eigen::VectorXd growth = capacity_at(model_, temperature);
+  for_each_shortly(growth.size(), [&](Eigen::Index row) {
     const auto material = static_cast<std::size_t>(properties.material[NodeId(static_cast<std::size_t>(row))]);
-    return std::abs(error[row]) * std::max(1.0, capacity[row] / (properties.mass[row] * least_[material]) - mild);
+    growth[row] = std::max(1.0, growth[row] / (properties.mass[row] * least_[material]) - mild);
   });
+  return growth;
+}
+
+double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd& growth) {
+  return growth.size() == 0 ? error.lpNorm<Eigen::Infinity>() : error.cwiseProduct(growth).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace scree::thermal

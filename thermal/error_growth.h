@@ -16,11 +16,14 @@ class ErrorGrowth {
   // Whether any specific heat varies. Otherwise errors do not grow.
   [[nodiscard]] bool counts() const { return varies_; }
 
-  // Temperatures stay in this range from now on, and in those given before.
-  void include(const TemperatureRange& range);
+  // Temperatures stay in this range from now on, and in those given before. Whether that is more than was known.
+  bool include(const TemperatureRange& range);
 
-  // The largest of what errors of nodes at these temperatures may become within that range [K].
-  [[nodiscard]] double largest(const Eigen::VectorXd& error, const Eigen::VectorXd& temperature) const;
+  // How many times as large the errors of nodes at these temperatures may become within that range; of no size if none grows.
+  [[nodiscard]] Eigen::VectorXd at(const Eigen::VectorXd& temperature) const;
+
+  // The largest of what errors may become that grow so [K].
+  [[nodiscard]] static double largest(const Eigen::VectorXd& error, const Eigen::VectorXd& growth);
 
  private:
   const HeatModel& model_;

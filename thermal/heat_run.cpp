@@ -49,8 +49,9 @@ class HeatRun::Implementation {
     state_.ledger = bookkeeper_.open(state_.temperature);
     state_.given.include(model_.initial);
     include_drive(0);
-    if (growth_.counts()) growth_.include(range_to_come());
     state_.reached.include(state_.temperature);
+    if (growth_.counts()) growth_.include(range_to_come());
+    find_growth();
     if (model_.lumped) state_.lumping = lumping_.emplace(model_).start();
   }
 
@@ -66,8 +67,7 @@ class HeatRun::Implementation {
     if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
     scheme_.scheme->take_matrix(state_.matrix);
-    growth_.include(state_.given);
-    growth_.include(state_.reached);
+    find_growth();
     // The matrix that is there again was counted when it was made.
     earlier_factorisations_ = state_.factorisations - scheme_.scheme->factorisations();
   }
@@ -157,6 +157,7 @@ class HeatRun::Implementation {
     state_.temperature = after;
     state_.reached.include(after);
     include_drive(time);
+    find_growth();
     state_.time = time;
     state_.next_step = 0;
     state_.earlier.clear();
@@ -186,8 +187,8 @@ class HeatRun::Implementation {
         refine(grid, twice_too_long);
         continue;
       }
-      const Eigen::VectorXd after = state_.temperature + step.change;
-      const double local = growth_.largest(step.local, after), error = growth_.largest(step.error, after);
+      Eigen::VectorXd growth = growth_.at(state_.temperature + step.change);
+      const double local = growth_.largest(step.local, growth), error = growth_.largest(step.error, growth);
       if (!(local <= may_add)) {
         refine(grid, local / may_add);
         continue;
@@ -214,6 +215,7 @@ class HeatRun::Implementation {
         state_.next_step *= 2;
       }
       state_.earlier = ends;
+      growth_now_ = std::move(growth);
       accept(step, dt, grid.time(), between, progress);
     }
   }
@@ -280,14 +282,21 @@ class HeatRun::Implementation {
     return jumps ? std::max(smooth, budget_.of_jump()) : smooth;
   }
 
-  // What the errors of nodes may become [K].
-  [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, state_.temperature); }
+  // What errors of nodes may become, as they are now [K].
+  [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, growth_now_); }
 
   [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
 
-  void include_drive(double time) {
-    include(drives_.at(time), state_.given);
-    growth_.include(state_.given);
+  void include_drive(double time) { include(drives_.at(time), state_.given); }
+
+  // Where the state has come to.
+  void find_growth() {
+    include_range();
+    growth_now_ = growth_.at(state_.temperature);
+  }
+  bool include_range() {
+    const bool given = growth_.include(state_.given), reached = growth_.include(state_.reached);
+    return given || reached;
   }
 
   static void include(const Drive& drive, TemperatureRange& range) {
@@ -323,9 +332,9 @@ class HeatRun::Implementation {
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
     state_.reached.include(state_.temperature);
-    growth_.include(state_.reached);
     if (lumping_) lumping_->advance(state_.temperature, drives_.at(time), dt, state_.lumping);
     if (drives_.vary()) include_drive(time);
+    if (include_range()) growth_now_ = growth_.at(state_.temperature);
     if (progress) progress(time);
   }
 
@@ -335,6 +344,7 @@ class HeatRun::Implementation {
   ChosenScheme scheme_;  // refers to model_
   ErrorBudget budget_;
   ErrorGrowth growth_;
+  Eigen::VectorXd growth_now_;  // at the state's temperatures
   Bookkeeper bookkeeper_;
   Drives drives_;
   PassedOutputs passed_;

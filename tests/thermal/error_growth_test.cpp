@@ -29,7 +29,7 @@ double largest_in(const ErrorGrowth& growth, const HeatModel& model) {
   error[0] = 1e-3;
   error[error.size() - 1] = -2e-3;
   temperature[error.size() - 1] = 350;
-  return growth.largest(error, temperature);
+  return ErrorGrowth::largest(error, growth.at(temperature));
 }
 
 TEST(ErrorGrowth, OfConstantCapacitiesThereIsNone) {
