@@ -212,11 +212,11 @@ JointConduction joint_conduction(const mesh::BlockMesh<dim>& mesh, const Table<M
   conduction.conductances.reserve(contacts.contacts.size());
   auto perfect = terms.begin();
   for (const auto& contact : contacts.contacts) {
+    const JointLaw& law = law_between(joint, mesh.bodies, mesh.blocks[contact.owner].body, mesh.blocks[contact.target].body);
     ContactSides sides;
-    sides.mean_conductivity = mean_conductivity(mesh, materials, contact);
+    if (std::holds_alternative<StiffnessFactor>(law)) sides.mean_conductivity = mean_conductivity(mesh, materials, contact);
     const bool has_term = perfect != terms.end() && perfect->contact == conduction.conductances.size();
     if (has_term) sides.penalty = (perfect++)->penalty;
-    const JointLaw& law = law_between(joint, mesh.bodies, mesh.blocks[contact.owner].body, mesh.blocks[contact.target].body);
     conduction.conductances.push_back(contact_conductance(contact, sides, law));
   }
   return conduction;

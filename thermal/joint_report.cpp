@@ -37,6 +37,17 @@ double conductance_of(const contact::Contact<dim>& contact, double mean_conducti
   return contact_conductance(contact, {mean_conductivity, 0}, law);
 }
 
+// [W/m/K]; not a number where a formula has no value at 20 C. A joint of a conductance needs none, but has no beta and Bi then.
+template <int dim>
+double known_conductivity(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
+                          const contact::Contact<dim>& contact) {
+  try {
+    return mean_conductivity(mesh, materials, contact);
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 template <int dim>
 void count(const contact::Contact<dim>& contact, JointReport& report) {
   using contact::Kind;
@@ -73,7 +84,7 @@ std::vector<JointReport> joint_reports(const mesh::BlockMesh<dim>& mesh, const T
     auto& [report, sums] = pairs[{std::min(owner, target), std::max(owner, target)}];
     if (report.area == 0) report.least_conductance = std::numeric_limits<double>::infinity();
     report.law = name_of(law);
-    const double k = mean_conductivity(mesh, materials, contact);
+    const double k = known_conductivity(mesh, materials, contact);
     const double conductance = conductance_of(contact, k, law);
     count(contact, report);
     report.least_conductance = std::min(report.least_conductance, conductance / contact.area);

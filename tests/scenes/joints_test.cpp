@@ -122,6 +122,24 @@ TEST(Joints, RefuseWhatNoneOfThemUses) {
   EXPECT_EQ(refused("{conductance: 50, model: semi_spring, indentation: 0.3}"), "accepted");
 }
 
+TEST(Joints, OfAConductanceAskNothingOfAFormulaWithoutAValueAtTwentyDegrees) {
+  const std::vector<std::string> hot{
+      "materials.rock={density: 2700, specific_heat: 800, conductivity: {expression: "
+      "\"2 + sqrt((T - 350)/100)\", unit: W/(m K)}}",
+      "contact={conductance: 60}",
+      "heat.initial=400",
+      "heat.boundaries=[{body: left, temperature: 450}]",
+      "output.probes=null",
+      "heat.until=1 h"};
+  const SceneRun run = sound_run("bars_and_joint", "hot_joint", hot);
+  EXPECT_TRUE(run.summary["joints"][0]["biot"].is_null());
+  EXPECT_GT(run.summary["joints"][0]["joint_conductance"], 0);
+  auto by_factor = hot;
+  by_factor.emplace_back("contact={stiffness_factor: 10}");
+  EXPECT_NE(refusal("bars_and_joint", fresh_directory("hot_joint_by_factor"), by_factor).find("at 293.15 K"),
+            std::string::npos);
+}
+
 TEST(Joints, RefuseAToleranceByWhichOnlyRoundingFindsContacts) {
   const std::string refused = refusal("bars_and_joint", fresh_directory("no_tolerance"), {"contact.tolerance=0"});
   EXPECT_NE(refused.find("contact.tolerance is 0 (must be positive"), std::string::npos) << refused;
