@@ -23,7 +23,7 @@ struct LumpingEstimate::Patch {
   double heat = 0;           // into the block [W]
   double conductance = 0;    // [W/K]
   PatchResistance resists;
-  std::span<const int> entries = {};  // in K's column of the block that belong to it; none for an exchange
+  std::span<const Link> links = {};  // that make it; none for an exchange
 };
 
 // What flows through one block's patches makes of it.
@@ -42,13 +42,22 @@ LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   conductance_ = free_.block(model.conductance);
   if (!is_symmetric(model)) unit_conductance_ = free_.block(model.varying->unit_conductance);
-  // A neighbour's rows need not follow each other.
-  for (const LumpedBlock& block : blocks_) {
-    const auto begin = static_cast<std::ptrdiff_t>(entries_.size());
-    const int* column = model.conductance.outerIndexPtr() + block.row.value();
-    for (int entry = column[0]; entry < column[1]; ++entry) entries_.push_back(entry);
-    std::stable_sort(entries_.begin() + begin, entries_.end(),
-                     [&](int one, int other) { return neighbour_in(one) < neighbour_in(other); });
+  for (std::size_t i = 0; i < blocks_.size(); ++i) add_neighbours(static_cast<int>(i));
+}
+
+// The rows of a neighbour need not follow each other.
+void LumpingEstimate::add_neighbours(int position) {
+  const auto block_of = [this](const Link& link) { return model_.blocks[NodeId(static_cast<std::size_t>(link.row))]; };
+  const int row = blocks_[static_cast<std::size_t>(position)].row.value();
+  const auto begin = static_cast<std::ptrdiff_t>(links_.size());
+  for (SparseMatrix::InnerIterator entry(model_.conductance, row); entry; ++entry)
+    if (entry.index() != row) links_.push_back({static_cast<int>(entry.index()), entry.value()});
+  std::stable_sort(links_.begin() + begin, links_.end(),
+                   [&](const Link& one, const Link& other) { return block_of(one) < block_of(other); });
+  for (auto first = links_.begin() + begin; first != links_.end();) {
+    const auto last = std::find_if(first, links_.end(), [&](const Link& link) { return block_of(link) != block_of(*first); });
+    neighbours_.push_back({position, static_cast<int>(last - first)});
+    first = last;
   }
 }
 
@@ -70,24 +79,18 @@ void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& d
 
 template <class Visit>
 void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const {
-  const SparseMatrix& k = model_.conductance;
-  std::span<const int> left = entries_;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const int row = blocks_[i].row.value();
-    for (auto in_column = k.outerIndexPtr()[row + 1] - k.outerIndexPtr()[row]; in_column > 0;) {
-      Patch patch{i, 0, 0, blocks_[i].contact};
-      const BlockId neighbour = neighbour_in(left.front());
-      std::size_t count = 0;
-      for (; in_column > 0 && neighbour_in(left[count]) == neighbour; ++count, --in_column) {
-        const int other = k.innerIndexPtr()[left[count]];
-        if (other == row) continue;
-        patch.conductance -= k.valuePtr()[left[count]];
-        patch.heat -= k.valuePtr()[left[count]] * (temperature[other] - temperature[row]);
-      }
-      patch.entries = left.first(count);
-      left = left.subspan(count);
-      if (patch.conductance > 0) visit(patch);
+  std::span<const Link> left = links_;
+  for (const Neighbour& neighbour : neighbours_) {
+    const LumpedBlock& block = blocks_[static_cast<std::size_t>(neighbour.position)];
+    Patch patch{static_cast<std::size_t>(neighbour.position), 0, 0, block.contact,
+                left.first(static_cast<std::size_t>(neighbour.links))};
+    left = left.subspan(patch.links.size());
+    const double own = temperature[block.row.value()];
+    for (const Link& link : patch.links) {
+      patch.conductance -= link.entry;
+      patch.heat -= link.entry * (temperature[link.row] - own);
     }
+    if (patch.conductance > 0) visit(patch);
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
     const Exchange& exchange = model_.exchanges[e];
@@ -104,10 +107,6 @@ void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const D
   }
 }
 
-BlockId LumpingEstimate::neighbour_in(int entry) const {
-  return model_.blocks[NodeId(static_cast<std::size_t>(model_.conductance.innerIndexPtr()[entry]))];
-}
-
 std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {
   std::vector<Flows> result(blocks_.size());
   for_each_patch(temperature, drive, [&](const Patch& patch) { result[patch.position].add(patch.heat, patch.resists); });
@@ -122,7 +121,6 @@ std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd
 // Into each row [W].
 Eigen::VectorXd LumpingEstimate::missing(const Eigen::VectorXd& temperature, const Drive& drive,
                                          const std::vector<Flows>& flows) const {
-  const SparseMatrix& k = model_.conductance;
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
   for_each_patch(temperature, drive, [&](const Patch& patch) {
     const LumpedBlock& block = blocks_[patch.position];
@@ -130,10 +128,7 @@ Eigen::VectorXd LumpingEstimate::missing(const Eigen::VectorXd& temperature, con
     const double surface = (patch.heat > 0 ? of_block.in : of_block.out) + patch.resists.constriction * std::abs(patch.heat);
     const double less = std::copysign(patch.conductance * surface, patch.heat);
     heat[block.row.value()] -= less;
-    for (const int entry : patch.entries) {
-      const int other = k.innerIndexPtr()[entry];
-      if (other != block.row.value()) heat[other] -= less * k.valuePtr()[entry] / patch.conductance;  // K_ij < 0
-    }
+    for (const Link& link : patch.links) heat[link.row] -= less * link.entry / patch.conductance;  // entries are negative
   });
   return heat;
 }

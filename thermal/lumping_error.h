@@ -11,6 +11,8 @@
 // instants after a sudden start the inside has not built up theta yet, and the estimate is too large.
 #pragma once
 
+#include <vector>
+
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
 
@@ -37,17 +39,28 @@ class LumpingEstimate {
   // Every patch of lumped blocks, each by visit(Patch).
   template <class Visit>
   void for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const;
-  [[nodiscard]] BlockId neighbour_in(int entry) const;
   [[nodiscard]] std::vector<Flows> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& temperature, const Drive& drive,
                                         const std::vector<Flows>& flows) const;
+  void add_neighbours(int position);
   void carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) const;
 
   const HeatModel& model_;
   const std::vector<LumpedBlock>& blocks_;
   HeatBalance balance_;
   FreeNodes free_;
-  std::vector<int> entries_;       // of K in the columns of lumped blocks, in turn, each sorted by neighbour
+  // What a lumped block's row has in common with another row: an entry of K off its diagonal.
+  struct Link {
+    int row;       // the other one
+    double entry;  // [W/K]
+  };
+  // Of lumped blocks with the blocks that they touch, in turn: what a step goes through lies in the order in which it does.
+  struct Neighbour {
+    int position;  // of the lumped block
+    int links;     // how many
+  };
+  std::vector<Neighbour> neighbours_;
+  std::vector<Link> links_;
   SparseMatrix conductance_;       // between free rows [W/K]
   SparseMatrix unit_conductance_;  // of U, if there is one
 };
