@@ -66,4 +66,17 @@ double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd&
   return growth.size() == 0 ? error.lpNorm<Eigen::Infinity>() : error.cwiseProduct(growth).lpNorm<Eigen::Infinity>();
 }
 
+TemperatureRange given_until(Drives& drives, double until) {
+  // No multiples of each other, so that they meet every part of a swing.
+  constexpr int instants = 64;
+  constexpr double golden = 0.6180339887498949;
+  TemperatureRange range;
+  range.include(drives.at(0));
+  for (int i = 1; drives.vary() && i <= instants; ++i) {
+    const double turns = i * golden;
+    range.include(drives.at(until * (turns - std::floor(turns))));
+  }
+  return range;
+}
+
 }  // namespace scree::thermal

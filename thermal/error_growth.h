@@ -32,4 +32,7 @@ class ErrorGrowth {
   std::vector<double> least_;  // specific heat of each material that varies there [J/kg/K]
 };
 
+// The temperatures that come from outside in the time until `until` [s].
+TemperatureRange given_until(Drives& drives, double until);
+
 }  // namespace scree::thermal

@@ -50,7 +50,7 @@ class HeatRun::Implementation {
     state_.given.include(model_.initial);
     include_drive(0);
     state_.reached.include(state_.temperature);
-    if (growth_.counts()) growth_.include(range_to_come());
+    if (growth_.counts()) growth_.include(given_until(drives_, options_.until));
     find_growth();
     if (model_.lumped) state_.lumping = lumping_.emplace(model_).start();
   }
@@ -287,7 +287,7 @@ class HeatRun::Implementation {
 
   [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
 
-  void include_drive(double time) { include(drives_.at(time), state_.given); }
+  void include_drive(double time) { state_.given.include(drives_.at(time)); }
 
   // Where the state has come to.
   void find_growth() {
@@ -297,23 +297,6 @@ class HeatRun::Implementation {
   bool include_range() {
     const bool given = growth_.include(state_.given), reached = growth_.include(state_.reached);
     return given || reached;
-  }
-
-  static void include(const Drive& drive, TemperatureRange& range) {
-    range.include(drive.fixed);
-    for (const ExchangeRates& rates : drive.exchanges) range.include(rates.surroundings);
-  }
-
-  // From outside, over the whole run. Looks that are no multiples of each other meet every part of a swing.
-  [[nodiscard]] TemperatureRange range_to_come() {
-    constexpr int looks = 64;
-    constexpr double golden = 0.6180339887498949;
-    TemperatureRange range = state_.given;
-    for (int look = 1; drives_.vary() && look <= looks; ++look) {
-      const double turns = look * golden;
-      include(drives_.at(options_.until * (turns - std::floor(turns))), range);
-    }
-    return range;
   }
 
   // `between`: the error at outputs that the step passes [K].

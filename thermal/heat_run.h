@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "thermal/between_steps.h"
+#include "thermal/drive.h"
 #include "thermal/heat_model.h"
 #include "thermal/lumping_error.h"
 #include "thermal/matrix_origin.h"
@@ -37,6 +38,7 @@ struct TemperatureRange {
   double largest = -std::numeric_limits<double>::infinity();
 
   void include(const Eigen::VectorXd& temperatures);
+  void include(const Drive& drive);  // temperatures held, and of surroundings
 };
 
 // Everything a later process needs to go on as if it had never stopped.

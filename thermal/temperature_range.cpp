@@ -11,6 +11,11 @@ void TemperatureRange::include(const Eigen::VectorXd& temperatures) {
   largest = std::max(largest, temperatures.maxCoeff());
 }
 
+void TemperatureRange::include(const Drive& drive) {
+  include(drive.fixed);
+  for (const ExchangeRates& rates : drive.exchanges) include(rates.surroundings);
+}
+
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
   if (!model.loads.empty()) return std::nullopt;
   const double above = state.reached.largest - state.given.largest;
