@@ -187,7 +187,8 @@ class HeatRun::Implementation {
         refine(grid, twice_too_long);
         continue;
       }
-      Eigen::VectorXd growth = growth_.at(state_.temperature + step.change);
+      Eigen::VectorXd growth;
+      if (growth_.counts()) growth = growth_.at(state_.temperature + step.change);
       const double local = growth_.largest(step.local, growth), error = growth_.largest(step.error, growth);
       if (!(local <= may_add)) {
         refine(grid, local / may_add);
