@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "thermal/heat_model.h"
-#include "thermal/heat_run.h"
+#include "thermal/temperature_range.h"
 
 namespace scree::thermal {
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "thermal/lumping_error.h"
 #include "thermal/matrix_origin.h"
 #include "thermal/step_forecast.h"
+#include "thermal/temperature_range.h"
 
 namespace scree::thermal {
 
@@ -31,14 +31,6 @@ struct Ledger {
 
   [[nodiscard]] double residual() const;           // |stored - all that came in| [J]
   [[nodiscard]] double relative_residual() const;  // of turnover; 0 if nothing flowed
-};
-
-struct TemperatureRange {
-  double least = std::numeric_limits<double>::infinity();  // [K]
-  double largest = -std::numeric_limits<double>::infinity();
-
-  void include(const Eigen::VectorXd& temperatures);
-  void include(const Drive& drive);  // temperatures held, and of surroundings
 };
 
 // Everything a later process needs to go on as if it had never stopped.

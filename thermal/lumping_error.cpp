@@ -56,7 +56,9 @@ void LumpingEstimate::add_neighbours(int position) {
                    [&](const Link& one, const Link& other) { return block_of(one) < block_of(other); });
   for (auto first = links_.begin() + begin; first != links_.end();) {
     const auto last = std::find_if(first, links_.end(), [&](const Link& link) { return block_of(link) != block_of(*first); });
-    neighbours_.push_back({position, static_cast<int>(last - first)});
+    Neighbour neighbour{position, static_cast<int>(last - first)};
+    std::for_each(first, last, [&](const Link& link) { neighbour.conductance -= link.entry; });
+    neighbours_.push_back(neighbour);
     first = last;
   }
 }
@@ -82,14 +84,11 @@ void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const D
   std::span<const Link> left = links_;
   for (const Neighbour& neighbour : neighbours_) {
     const LumpedBlock& block = blocks_[static_cast<std::size_t>(neighbour.position)];
-    Patch patch{static_cast<std::size_t>(neighbour.position), 0, 0, block.contact,
+    Patch patch{static_cast<std::size_t>(neighbour.position), 0, neighbour.conductance, block.contact,
                 left.first(static_cast<std::size_t>(neighbour.links))};
     left = left.subspan(patch.links.size());
     const double own = temperature[block.row.value()];
-    for (const Link& link : patch.links) {
-      patch.conductance -= link.entry;
-      patch.heat -= link.entry * (temperature[link.row] - own);
-    }
+    for (const Link& link : patch.links) patch.heat -= link.entry * (temperature[link.row] - own);
     if (patch.conductance > 0) visit(patch);
   }
   for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {

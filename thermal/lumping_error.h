@@ -34,6 +34,17 @@ class LumpingEstimate {
   void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) const;
 
  private:
+  // What a lumped block's row has in common with another row: an entry of K off its diagonal.
+  struct Link {
+    int row;       // the other one
+    double entry;  // [W/K]
+  };
+  // One of the blocks that a lumped block touches.
+  struct Neighbour {
+    int position;            // of the lumped block
+    int links;               // how many
+    double conductance = 0;  // of all of them [W/K]
+  };
   struct Flows;
   struct Patch;
   // Every patch of lumped blocks, each by visit(Patch).
@@ -49,16 +60,7 @@ class LumpingEstimate {
   const std::vector<LumpedBlock>& blocks_;
   HeatBalance balance_;
   FreeNodes free_;
-  // What a lumped block's row has in common with another row: an entry of K off its diagonal.
-  struct Link {
-    int row;       // the other one
-    double entry;  // [W/K]
-  };
-  // Of lumped blocks with the blocks that they touch, in turn: what a step goes through lies in the order in which it does.
-  struct Neighbour {
-    int position;  // of the lumped block
-    int links;     // how many
-  };
+  // Of all lumped blocks in turn: what a step goes through lies in the order in which it does.
   std::vector<Neighbour> neighbours_;
   std::vector<Link> links_;
   SparseMatrix conductance_;       // between free rows [W/K]

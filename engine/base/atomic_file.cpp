@@ -1,32 +1,16 @@
 #include "engine/base/atomic_file.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <iterator>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/base/files_together.h"
 
 namespace scree {
 
 namespace {
 
-thread_local FilesTogether* together = nullptr;  // where files of this thread wait, if they do
-
 [[noreturn]] void fail(const std::filesystem::path& file, std::error_code reason) {
   throw RunError(not_written(file, reason));
-}
-
-// The extension stays last: writers choose the format by it.
-std::filesystem::path temporary_of(const std::filesystem::path& file) {
-  return file.parent_path() / fmt::format(".part-{}", file.filename().string());
-}
-
-// Of a file that waits while the next of its name is written.
-std::filesystem::path earlier_of(const std::filesystem::path& file) {
-  return file.parent_path() / fmt::format(".earlier-{}", file.filename().string());
 }
 
 // The file that a name stands for: through a symbolic link its target, which need not be there yet.
@@ -46,18 +30,8 @@ std::filesystem::path target_of(const std::filesystem::path& name) {
   return file;
 }
 
-void flush(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  if (const std::error_code reason = flush_to_disk(temporary)) fail(file, reason);
-}
-
-void name_written(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  std::error_code reason;
-  std::filesystem::rename(temporary, file, reason);
-  if (reason) fail(file, reason);
-}
-
 void flush_and_name(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  if (together != nullptr) return together->add(temporary, file);
+  if (FilesTogether* together = FilesTogether::of_this_thread()) return together->add(temporary, file);
   flush(temporary, file);
   name_written(temporary, file);
 }
@@ -68,7 +42,7 @@ void replace_atomically(const std::filesystem::path& file, const Make& make, con
   const std::filesystem::path temporary = temporary_of(file);
   std::error_code ignored;
   try {
-    if (together != nullptr) together->keep_earlier(file);
+    if (FilesTogether* together = FilesTogether::of_this_thread()) together->keep_earlier(file);
     if (const std::error_code reason = make(temporary)) fail(file, reason);
     finish(temporary, file);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -81,12 +55,6 @@ void replace_atomically(const std::filesystem::path& file, const Make& make, con
 }
 
 }  // namespace
-
-std::string not_written(const std::filesystem::path& file, std::error_code reason) {
-  const bool full = reason == std::errc::no_space_on_device || reason.value() == EDQUOT;
-  return fmt::format("{}: could not be written ({}). {}", file.string(), reason.message(),
-                     full ? "Free some space or choose another place" : "Choose another place");
-}
 
 void write_atomically(const std::filesystem::path& name, const std::function<void(const std::filesystem::path&)>& write) {
   const auto make = [&](const std::filesystem::path& temporary) {
@@ -111,57 +79,9 @@ void write_unflushed(const std::filesystem::path& file, std::string_view text) {
   replace_atomically(target_of(file), make, name_written);
 }
 
-FilesTogether::Scope::Scope(FilesTogether& files) : outer_(std::exchange(together, &files)) {}
-
-FilesTogether::Scope::~Scope() {
-  together = outer_;
-}
-
-FilesTogether::~FilesTogether() {
-  try {
-    publish();
-  } catch (...) {
-  }
-}
-
 void remove_unfinished(const std::filesystem::path& file) {
   std::filesystem::remove(temporary_of(file));
   std::filesystem::remove(earlier_of(file));
-}
-
-void FilesTogether::keep_earlier(const std::filesystem::path& file) {
-  for (Waiting& each : waiting_) {
-    if (each.file == file) std::filesystem::rename(std::exchange(each.temporary, earlier_of(file)), earlier_of(file));
-  }
-}
-
-void FilesTogether::add(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  const auto replaced = std::erase_if(waiting_, [&](const Waiting& earlier) { return earlier.file == file; });
-  std::error_code ignored;
-  if (replaced > 0) std::filesystem::remove(earlier_of(file), ignored);
-  waiting_.push_back({temporary, file});
-  if (!since_) since_ = std::chrono::steady_clock::now();
-  begin_to_flush(temporary);  // or the disk does nothing meanwhile
-}
-
-void FilesTogether::pass_on(FilesTogether& others) {
-  if (since_ && !others.since_) others.since_ = since_;
-  since_.reset();
-  std::move(waiting_.begin(), waiting_.end(), std::back_inserter(others.waiting_));
-  waiting_.clear();
-}
-
-void FilesTogether::publish() {
-  const std::vector<Waiting> files = std::exchange(waiting_, {});
-  since_.reset();
-  try {
-    for (const Waiting& each : files) flush(each.temporary, each.file);
-    for (const Waiting& each : files) name_written(each.temporary, each.file);
-  } catch (...) {
-    std::error_code ignored;
-    for (const Waiting& each : files) std::filesystem::remove(each.temporary, ignored);
-    throw;
-  }
 }
 
 }  // namespace scree

@@ -21,16 +21,18 @@ class DisjointSets {
   template <class Members, class ThingOf>
   std::vector<std::vector<std::size_t>> groups(const Members& members, const ThingOf& thing_of) {
     constexpr auto none = static_cast<std::size_t>(-1);
-    std::vector<std::size_t> place(parent_.size(), none);
-    std::vector<std::vector<std::size_t>> sets;
+    std::vector<std::size_t> place(parent_.size(), none), counts;
     for (std::size_t i = 0; i < members.size(); ++i) {
       std::size_t& at = place[root(thing_of(i))];
       if (at == none) {
-        at = sets.size();
-        sets.emplace_back();
+        at = counts.size();
+        counts.push_back(0);
       }
-      sets[at].push_back(i);
+      ++counts[at];
     }
+    std::vector<std::vector<std::size_t>> sets(counts.size());
+    for (std::size_t set = 0; set < sets.size(); ++set) sets[set].reserve(counts[set]);
+    for (std::size_t i = 0; i < members.size(); ++i) sets[place[root(thing_of(i))]].push_back(i);
     return sets;
   }
 

@@ -152,6 +152,26 @@ void add_block(BlockMesh<dim>& mesh, std::size_t first_surface, const SimplexMes
                          pose.rotation});
 }
 
+// For as many more entries, and for twice as many as before if there are too few: what bodies add one after the other is not
+// moved for each of them.
+template <class Entries>
+void make_room(Entries& entries, std::size_t more) {
+  const std::size_t needed = entries.size() + more, there = entries.raw().capacity();
+  if (needed > there) entries.reserve(std::max(needed, 2 * there));
+}
+
+template <int dim>
+void make_room(BlockMesh<dim>& mesh, const Parts<dim>& pieces, std::size_t copies) {
+  std::size_t nodes = 0, elements = 0;
+  for (const SimplexMesh<dim>& piece : pieces.meshes) {
+    nodes += piece.nodes.size();
+    elements += piece.elements.size();
+  }
+  make_room(mesh.nodes, copies * nodes);
+  make_room(mesh.elements, copies * elements);
+  make_room(mesh.blocks, copies * pieces.meshes.size());
+}
+
 // How a body breaks into blocks decides what is asked of a mesh file (volume_mesh.h).
 bool gives_same_mesh(const BodySpec& a, const BodySpec& b) {
   const bool asked_the_same = a.blocks == b.blocks || !std::holds_alternative<MeshFile>(a.shape);
@@ -176,7 +196,9 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
     const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity, made_from(body)});
     const std::size_t first_surface = mesh.surface_names.size();
     for (const std::string& name : whole.surfaces) mesh.surface_names.push_back({id, name});
-    for (const Pose& pose : poses_of(body, bounds_of(whole), dim)) {
+    const std::vector<Pose> poses = poses_of(body, bounds_of(whole), dim);
+    make_room(mesh, pieces, poses.size());
+    for (const Pose& pose : poses) {
       for (const SimplexMesh<dim>& piece : pieces.meshes) add_block(mesh, first_surface, piece, pose);
     }
   }

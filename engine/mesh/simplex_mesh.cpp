@@ -72,6 +72,11 @@ Places place_nodes(const RawMesh& raw, const std::vector<std::vector<std::size_t
       for (const std::size_t node : cells[e].nodes) places.part[node] = p;
     }
   }
+  std::vector<std::size_t> counts(parts.size(), 0);
+  for (const std::size_t part : places.part) {
+    if (part != not_there) ++counts[part];
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) parts[p].nodes.reserve(counts[p]);
   for (std::size_t i = 0; i < raw.points.size(); ++i) {
     if (places.part[i] == not_there) continue;
     auto& nodes = parts[places.part[i]].nodes;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <cstdint>
 
 #include <fmt/format.h>
 
+#include "engine/base/grouped.h"
 #include "engine/mesh/conforming.h"
 #include "engine/mesh/disjoint_sets.h"
 #include "engine/mesh/problems.h"
@@ -45,37 +46,52 @@ void check_elements(const BodySpec& body, const RawMesh& raw) {
   }
 }
 
+// A face of an element, by its nodes but the least in ascending order, and on which side of it the element lies.
+template <int dim>
+struct Side {
+  std::array<std::uint32_t, dim - 1> others;
+  bool front;
+  std::uint32_t element;
+
+  [[nodiscard]] bool same_as(const Side& side) const { return others == side.others && front == side.front; }
+  friend auto operator<=>(const Side&, const Side&) = default;
+};
+
+// Calls visit(least node, side) for every face of an element.
+template <int dim, class Visit>
+void sides_of(const RawCell<dim + 1>& cell, std::size_t element, const Visit& visit) {
+  for (std::size_t out = 0; out <= dim; ++out) {
+    std::array<std::uint32_t, dim> face;
+    for (std::size_t i = 0, k = 0; i <= dim; ++i) {
+      if (i != out) face[k++] = static_cast<std::uint32_t>(cell.nodes[i]);
+    }
+    // The corner left out and the swaps that sort the others tell the side.
+    bool front = out % 2 == 0;
+    for (std::size_t i = 0; i < dim; ++i) {
+      for (std::size_t j = i + 1; j < dim; ++j) front ^= face[i] > face[j];
+    }
+    std::sort(face.begin(), face.end());
+    Side<dim> side{{}, front, static_cast<std::uint32_t>(element)};
+    std::copy(face.begin() + 1, face.end(), side.others.begin());
+    visit(face[0], side);
+  }
+}
+
 // Every face belongs to one element or to two, one on each side.
 template <int dim>
 void check_faces(const BodySpec& body, const RawMesh& raw) {
   const auto& cells = element_cells<dim>(raw);
-  struct Side {
-    std::array<std::size_t, dim> face;  // sorted
-    bool front;
-    std::size_t number;
-  };
-  std::vector<Side> sides;
-  for (const auto& cell : cells) {
-    for (std::size_t out = 0; out <= dim; ++out) {
-      // The corner left out and the swaps that sort the others tell the side.
-      Side side{{}, out % 2 == 0, cell.number};
-      for (std::size_t i = 0, k = 0; i <= dim; ++i) {
-        if (i != out) side.face[k++] = cell.nodes[i];
-      }
-      for (std::size_t i = 0; i < dim; ++i) {
-        for (std::size_t j = i + 1; j < dim; ++j) side.front ^= side.face[i] > side.face[j];
-      }
-      std::sort(side.face.begin(), side.face.end());
-      sides.push_back(side);
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& a, const Side& b) { return std::tie(a.face, a.front) < std::tie(b.face, b.front); });
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    if (sides[i].face != sides[i - 1].face || sides[i].front != sides[i - 1].front) continue;
+  auto sides = grouped_by_number<Side<dim>>(cells.size(), raw.points.size(),
+                                            [&](std::size_t e, const auto& visit) { sides_of<dim>(cells[e], e, visit); });
+  for (std::size_t node = 0; node < raw.points.size(); ++node) {
+    const auto begin = sides.values.begin() + static_cast<std::ptrdiff_t>(sides.begin[node]);
+    const auto end = sides.values.begin() + static_cast<std::ptrdiff_t>(sides.begin[node + 1]);
+    std::sort(begin, end);
+    const auto same = std::adjacent_find(begin, end, [](const auto& a, const auto& b) { return a.same_as(b); });
+    if (same == end) continue;
     throw file_error(body,
-                     fmt::format("{0}s {1} and {2} lie on the same side of a face", element_name<dim>(raw), sides[i - 1].number,
-                                 sides[i].number),
+                     fmt::format("{0}s {1} and {2} lie on the same side of a face", element_name<dim>(raw),
+                                 cells[same->element].number, cells[(same + 1)->element].number),
                      "Remove elements that are there twice or overlap");
   }
 }

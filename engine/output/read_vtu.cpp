@@ -68,6 +68,8 @@ mesh::RawMesh vtk::read_vtu(const std::filesystem::path& file) {
   const vtkSmartPointer<vtkUnstructuredGrid> opened = open_vtu(file);
   vtkUnstructuredGrid& grid = *opened;
   mesh::RawMesh raw;
+  raw.points.reserve(static_cast<std::size_t>(grid.GetNumberOfPoints()));
+  raw.point_numbers.reserve(static_cast<std::size_t>(grid.GetNumberOfPoints()));
   for (vtkIdType p = 0; p < grid.GetNumberOfPoints(); ++p) {
     Eigen::Vector3d point;
     grid.GetPoint(p, point.data());

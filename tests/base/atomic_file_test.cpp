@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/base/check.h"
+#include "engine/base/files_together.h"
 #include "engine/base/page_buffer.h"
 #include "tests/file_limit.h"
 #include "tests/temp_folder.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/atomic_file.h"
+#include "engine/base/files_together.h"
 #include "engine/output/series.h"
 #include "thermal/heat_run.h"
 #include "tools/run/heated_pile.h"

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "contact/find_contacts.h"
-#include "engine/base/atomic_file.h"
 #include "engine/base/threads.h"
 #include "engine/output/probe_history.h"
 #include "thermal/steady_state.h"

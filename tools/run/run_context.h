@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/atomic_file.h"
+#include "engine/base/files_together.h"
 #include "engine/base/progress.h"
 #include "engine/base/stage_clock.h"
 #include "tools/run/interrupt.h"
