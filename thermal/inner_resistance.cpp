@@ -5,21 +5,19 @@
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 namespace scree::thermal {
 
 namespace {
 
-// Symmetric X with X A + A X = right, A symmetric and positive definite.
+// Symmetric X with X A + A X = right, A symmetric, positive definite and given by its eigenvalues and eigenvectors.
 template <int dim>
-Tensor<dim> lyapunov(const Tensor<dim>& a, const Tensor<dim>& right) {
-  const Eigen::SelfAdjointEigenSolver<Tensor<dim>> eigen(a);
-  Tensor<dim> x = eigen.eigenvectors().transpose() * right * eigen.eigenvectors();
+Tensor<dim> lyapunov(const Eigen::SelfAdjointEigenSolver<Tensor<dim>>& a, const Tensor<dim>& right) {
+  Tensor<dim> x = a.eigenvectors().transpose() * right * a.eigenvectors();
   for (int i = 0; i < dim; ++i) {
-    for (int j = 0; j < dim; ++j) x(i, j) /= eigen.eigenvalues()[i] + eigen.eigenvalues()[j];
+    for (int j = 0; j < dim; ++j) x(i, j) /= a.eigenvalues()[i] + a.eigenvalues()[j];
   }
-  return eigen.eigenvectors() * x * eigen.eigenvectors().transpose();
+  return a.eigenvectors() * x * a.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -27,7 +25,10 @@ Tensor<dim> lyapunov(const Tensor<dim>& a, const Tensor<dim>& right) {
 template <int dim>
 InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block,
                                       const Tensor<dim>& conductivity)
-    : mesh_(mesh), block_(block), conductivity_(conductivity) {
+    : mesh_(mesh),
+      block_(block),
+      conductivity_(conductivity),
+      lowest_conductivity_(Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity, Eigen::EigenvaluesOnly).eigenvalues()[0]) {
   for (const ElementId e : block.elements) {
     const double volume = mesh::element_volume(mesh, e);
     for (const NodeId node : mesh.elements[e]) centroid_ += volume / (dim + 1) * mesh.nodes[node];
@@ -44,17 +45,18 @@ InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, const me
     }
     moments_ += share * sum * sum.transpose();
   }
+  const Tensor<dim> root = conductivity_.llt().matrixL();
+  inverse_root_ = root.inverse();
+  scaled_moments_.compute(inverse_root_ * moments_ * inverse_root_.transpose());
 }
 
 template <int dim>
 double InnerResistance<dim>::bulk(const PatchMoments<dim>& patch) const {
   if (patch.weight == 0) return 0;
   const Point<dim> slope = conductivity_.llt().solve(patch.first / patch.weight) / volume_;
-  const Tensor<dim> root = conductivity_.llt().matrixL();
-  const Tensor<dim> inverse = root.inverse();
   const Tensor<dim> right = 0.5 * (patch.second / patch.weight - moments_ / volume_);
-  const Tensor<dim> scaled = lyapunov<dim>(inverse * moments_ * inverse.transpose(), inverse * right * inverse.transpose());
-  const Tensor<dim> bend = inverse.transpose() * scaled * inverse;
+  const Tensor<dim> scaled = lyapunov<dim>(scaled_moments_, inverse_root_ * right * inverse_root_.transpose());
+  const Tensor<dim> bend = inverse_root_.transpose() * scaled * inverse_root_;
   const double mean = (bend * moments_).trace() / volume_;
   double largest = 0;
   for (const NodeId node : block_.nodes) {
@@ -71,23 +73,18 @@ double InnerResistance<dim>::radius_of(double volume) {
 }
 
 template <int dim>
-double InnerResistance<dim>::lowest_conductivity() const {
-  return Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity_, Eigen::EigenvaluesOnly).eigenvalues()[0];
-}
-
-template <int dim>
 double InnerResistance<dim>::constriction_within(double volume) const {
   using std::numbers::pi;
   if (volume >= volume_) return 0;
   const double inner = radius_of(volume), outer = radius_of(volume_);
-  if constexpr (dim == 2) return std::log(outer / inner) / (2 * pi * lowest_conductivity());
-  return 3 * (1 / inner - 1 / outer) / (8 * pi * lowest_conductivity());
+  if constexpr (dim == 2) return std::log(outer / inner) / (2 * pi * lowest_conductivity_);
+  return 3 * (1 / inner - 1 / outer) / (8 * pi * lowest_conductivity_);
 }
 
 template <int dim>
 double InnerResistance<dim>::constriction(double area) const {
   using std::numbers::pi;
-  const double lowest = lowest_conductivity(), radius = radius_of(volume_);
+  const double lowest = lowest_conductivity_, radius = radius_of(volume_);
   const double surface = dim == 3 ? 4 * pi * radius * radius : 2 * pi * radius;
   if (area >= surface) return 0;
   if constexpr (dim == 2) return std::log(1 / std::sin(0.5 * pi * area / surface)) / (pi * lowest);

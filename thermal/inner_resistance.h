@@ -14,6 +14,8 @@
 // the rim by 3/(8 pi k) (1/a - 1/b), in 2-D by ln(b/a)/(2 pi k).
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include "thermal/block_conduction.h"
 
 namespace scree::thermal {
@@ -52,14 +54,16 @@ class InnerResistance {
 
  private:
   [[nodiscard]] static double radius_of(double volume);  // of a ball [m]
-  [[nodiscard]] double lowest_conductivity() const;
 
   const mesh::BlockMesh<dim>& mesh_;
   const mesh::Block& block_;
   Tensor<dim> conductivity_;
-  Point<dim> centroid_ = Point<dim>::Zero();   // [m]
-  double volume_ = 0;                          // [m3]
-  Tensor<dim> moments_ = Tensor<dim>::Zero();  // integral of x x^T about the centroid [m5]
+  double lowest_conductivity_;                                 // of the principal ones
+  Point<dim> centroid_ = Point<dim>::Zero();                   // [m]
+  double volume_ = 0;                                          // [m3]
+  Tensor<dim> moments_ = Tensor<dim>::Zero();                  // integral of x x^T about the centroid [m5]
+  Tensor<dim> inverse_root_;                                   // of Cholesky's root of the conductivity
+  Eigen::SelfAdjointEigenSolver<Tensor<dim>> scaled_moments_;  // by that from both sides
 };
 
 }  // namespace scree::thermal

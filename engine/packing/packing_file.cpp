@@ -243,7 +243,8 @@ void check_kind(const Hdf5Reader& in, const std::filesystem::path& file, int dim
 template <int dim>
 void write(const Packing<dim>& packing, const std::filesystem::path& file) {
   Lists lists = pack(packing);
-  Hdf5Image image(sizeof(double) * (lists.nodes.size() + lists.elements.size() + lists.cells.size()));
+  Hdf5Image image(sizeof(double) * (lists.nodes.size() + lists.elements.size() + lists.cells.size() + lists.blocks.size() +
+                                    lists.orientations.size() + lists.poses.size() + lists.surfaces.size()));
   image.put_attribute("format", format_name);
   image.put_attribute("version", format_version);
   image.put_attribute("dimension", dim);
