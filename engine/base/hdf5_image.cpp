@@ -5,8 +5,6 @@
 
 #include <hdf5.h>
 
-#include "engine/base/huge_pages.h"
-
 namespace scree {
 
 struct Hdf5Image::Memory {
@@ -17,15 +15,8 @@ struct Hdf5Image::Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() { std::free(bytes); }
 
-  // As large as is expected from the beginning, and all of it written once before HDF5 puts anything there.
-  static void* allocate(std::size_t size, H5FD_file_image_op_t, void*) {
-    void* const bytes = std::malloc(size);
-    if (bytes != nullptr) prefer_huge_pages(bytes, size);
-    return bytes;
-  }
-  static void* grow(void* bytes, std::size_t size, H5FD_file_image_op_t why, void* memory) {
-    return bytes == nullptr ? allocate(size, why, memory) : std::realloc(bytes, size);
-  }
+  static void* allocate(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  static void* grow(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
   static herr_t release(void* bytes, H5FD_file_image_op_t why, void* memory) {
     if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
       static_cast<Memory*>(memory)->bytes = bytes;

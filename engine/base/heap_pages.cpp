@@ -1,15 +1,17 @@
 #include "engine/base/heap_pages.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
-#include <new>
+#include <cstring>
 
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "engine/base/huge_pages.h"
+#include "engine/base/kept_blocks.h"
 
 namespace scree {
 
@@ -20,22 +22,18 @@ constexpr int grown_by = 8 * huge_page;      // beyond that, at a time
 constexpr int kept = 2 * reserved;           // free memory at the heap's end that does not go back to the system
 constexpr int least_growth = huge_page / 2;  // more than is free in a heap that has just begun, so that it grows
 
-std::atomic<char*> asked_until = nullptr;  // the end of the heap that is to be in huge pages; nothing if it is not
+std::uintptr_t end_of_heap() {
+  return reinterpret_cast<std::uintptr_t>(sbrk(0));
+}
+
+// The end of the heap that has been asked for in huge pages; without end as long as it is not to be.
+constinit std::atomic<std::uintptr_t> asked_until = UINTPTR_MAX;
 
 // The system forgets for what lies behind the end of the heap what it was asked for before it.
 void ask_for_growth() {
-  auto* const end = static_cast<char*>(sbrk(0));
-  char* const begin = asked_until.exchange(end, std::memory_order_relaxed);
-  if (end > begin) madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE);
-}
-
-void* allocated(std::size_t bytes) {
-  char* const until = asked_until.load(std::memory_order_relaxed);
-  if (until == nullptr) return std::malloc(bytes);
-  if (bytes >= worth_huge_pages) return allocate_pages(bytes, huge_page);
-  auto* const place = static_cast<char*>(std::malloc(bytes));
-  if (place + bytes > until) ask_for_growth();
-  return place;
+  const std::uintptr_t end = end_of_heap();
+  const std::uintptr_t begin = asked_until.exchange(end, std::memory_order_relaxed);
+  if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
 }  // namespace
@@ -58,22 +56,89 @@ void keep_heap_in_huge_pages() {
   const std::uintptr_t first = (next + least_growth + huge_page) / huge_page * huge_page;
   [[maybe_unused]] static void* volatile unused = nullptr;
   unused = std::malloc(first - next);
-  asked_until = static_cast<char*>(sbrk(0));
+  asked_until = end_of_heap();
 }
 
 }  // namespace scree
 
-// What takes the place of the standard library's: the same, but that large arrays are asked for in huge pages, whoever makes
-// them, and what the heap grows by.
-void* operator new(std::size_t bytes) {
-  if (void* const place = scree::allocated(bytes)) return place;
-  throw std::bad_alloc();
+// A sanitizer has a malloc() of its own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+// What the C library's own functions are called beside their usual names, for programs that replace those.
+extern "C" {
+void* __libc_malloc(std::size_t bytes);
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+void* __libc_realloc(void* place, std::size_t bytes);
+void __libc_free(void* place);
 }
 
-void operator delete(void* place) noexcept {
-  std::free(place);
+namespace scree {
+
+namespace {
+
+struct HugePages {
+  static void* make(std::size_t bytes) {
+    void* const block = __libc_memalign(huge_page, bytes);
+    if (block != nullptr) madvise(block, bytes, MADV_HUGEPAGE);
+    return block;
+  }
+  static void give_back(void* block) { __libc_free(block); }
+};
+
+constinit KeptBlocks<HugePages> large_blocks;
+
+bool is_large(std::size_t bytes) {
+  return bytes >= worth_huge_pages && bytes < PTRDIFF_MAX / 2;  // what is larger is not to be had
 }
 
-void operator delete(void* place, std::size_t) noexcept {
-  std::free(place);
+// How long a block is, if it is one of those; else 0.
+std::ptrdiff_t size_of_large(void* place) {
+  if (reinterpret_cast<std::uintptr_t>(place) % huge_page != 0) return 0;
+  const std::size_t bytes = malloc_usable_size(place) / huge_page * huge_page;
+  return bytes < worth_huge_pages ? 0 : static_cast<std::ptrdiff_t>(bytes);
 }
+
+}  // namespace
+
+}  // namespace scree
+
+// The C library's, but that large arrays come in huge pages, whoever makes them, and that what the heap grows by is asked for
+// so.
+extern "C" {
+
+void* malloc(std::size_t bytes) {
+  if (scree::is_large(bytes)) return scree::large_blocks.take(bytes);
+  void* const place = __libc_malloc(bytes);
+  const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(place) + bytes;
+  if (end > scree::asked_until.load(std::memory_order_relaxed)) scree::ask_for_growth();
+  return place;
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
+  const bool large = scree::is_large(bytes) && alignment <= scree::huge_page;
+  return large ? scree::large_blocks.take(bytes) : __libc_memalign(alignment, bytes);
+}
+
+// Large arrays are lengthened by moving their pages, which the C library does.
+void* realloc(void* place, std::size_t bytes) {
+  const std::ptrdiff_t before = scree::size_of_large(place);
+  if (before == 0 && scree::is_large(bytes)) {
+    void* const moved = malloc(bytes);
+    if (moved == nullptr) return nullptr;
+    if (place != nullptr) std::memcpy(moved, place, std::min(bytes, malloc_usable_size(place)));
+    free(place);
+    return moved;
+  }
+  void* const moved = __libc_realloc(place, bytes);
+  if (before > 0 && (moved != nullptr || bytes == 0)) scree::large_blocks.count(scree::size_of_large(moved) - before);
+  return moved;
+}
+
+void free(void* place) {
+  const std::ptrdiff_t size = scree::size_of_large(place);
+  size > 0 ? scree::large_blocks.keep(place, size) : __libc_free(place);
+}
+
+}  // extern "C"
+
+#endif

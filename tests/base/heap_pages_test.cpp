@@ -1,11 +1,16 @@
 #include "engine/base/heap_pages.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,6 +58,42 @@ TEST_F(HeapPages, AreAskedToBeHugeForWhatARunTakesInSmallPieces) {
 TEST_F(HeapPages, AreAskedToBeHugeForLargeArraysOutsideTheHeap) {
   const std::vector<double> array(2'000'000);
   EXPECT_TRUE(asked_to_be_huge(array.data() + 1'000'000));
+}
+
+TEST_F(HeapPages, HoldWhatWasInAnArrayThatGrowsAndShrinks) {
+  constexpr std::size_t mega = 1'000'000;
+  auto* array = static_cast<char*>(std::malloc(1));
+  array[0] = 1;
+  std::size_t before = 1;
+  for (const std::size_t bytes : {mega, 20 * mega, 50 * mega, 30 * mega, 9 * mega, mega, 12 * mega}) {
+    array = static_cast<char*>(std::realloc(array, bytes));
+    ASSERT_NE(array, nullptr);
+    for (std::size_t i = 0; i < std::min(before, bytes); i += 999) ASSERT_EQ(array[i], static_cast<char>(i % 100 + 1));
+    for (std::size_t i = 0; i < bytes; i += 999) array[i] = static_cast<char>(i % 100 + 1);
+    before = bytes;
+  }
+  std::free(array);
+}
+
+TEST_F(HeapPages, AreRefusedWhereThereIsNoSuchMemory) {
+  const volatile std::size_t too_many = SIZE_MAX - 100;
+  EXPECT_EQ(std::malloc(too_many), nullptr);
+}
+
+// What one thread frees another may use next, and each finds in its own only what it wrote.
+TEST_F(HeapPages, AreSharedByThreads) {
+  std::atomic<int> wrong = 0;
+  const auto work = [&wrong](int own) {
+    std::mt19937 draw(own);
+    for (int i = 0; i < 200; ++i) {
+      const std::vector<int> array((2 + draw() % 4) * 1'000'000, own);
+      wrong += array.front() == own && array.back() == own ? 0 : 1;
+    }
+  };
+  std::thread other(work, 2);
+  work(1);
+  other.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 }  // namespace
