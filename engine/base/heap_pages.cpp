@@ -29,13 +29,6 @@ std::uintptr_t end_of_heap() {
 // The end of the heap that has been asked for in huge pages; without end as long as it is not to be.
 constinit std::atomic<std::uintptr_t> asked_until = UINTPTR_MAX;
 
-// The system forgets for what lies behind the end of the heap what it was asked for before it.
-void ask_for_growth() {
-  const std::uintptr_t end = end_of_heap();
-  const std::uintptr_t begin = asked_until.exchange(end, std::memory_order_relaxed);
-  if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-}
-
 }  // namespace
 
 void keep_heap_in_huge_pages() {
@@ -75,6 +68,13 @@ void __libc_free(void* place);
 namespace scree {
 
 namespace {
+
+// The system forgets for what lies behind the end of the heap what it was asked for before it.
+void ask_for_growth() {
+  const std::uintptr_t end = end_of_heap();
+  const std::uintptr_t begin = asked_until.exchange(end, std::memory_order_relaxed);
+  if (end > begin) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
 
 struct HugePages {
   static void* make(std::size_t bytes) {

@@ -1,8 +1,9 @@
 // Large blocks of memory that are kept when they are freed, for those that are asked for next.
 //
-// What the system gives it has to clear first, and on a virtual machine its host may have to find it: what each step of a large
-// run makes and frees again takes as long as the step itself. Kept is at most a quarter of what is in use, and never so much
-// that all is more than it was at some time before: the peak of a program that keeps nothing is that of one that does.
+// What the system gives it has to clear first, and on a virtual machine its host may have to find it: for what each step of a
+// large run makes and frees again that takes as long as the step itself. Kept is at most a quarter of what is in use, and never
+// so much that large blocks in all are more than at some time before. What else a program uses comes on top: 2 to 8 % of the
+// peak of runs of millions of tetrahedra.
 #pragma once
 
 #include <algorithm>

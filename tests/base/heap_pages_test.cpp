@@ -36,12 +36,17 @@ std::string flags_at(const void* data) {
 class HeapPages : public testing::Test {
  protected:
   void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer has a malloc() of its own";
+#endif
     if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "a system without huge pages";
     static const bool once = (keep_heap_in_huge_pages(), true);
     (void)once;
   }
 
-  static bool asked_to_be_huge(const void* data) { return flags_at(data).find(" hg ") != std::string::npos; }
+  static bool asked_to_be_huge(const void* data) {
+    return flags_at(data).find(" hg ") != std::string::npos;
+  }
 };
 
 // More than the heap begins with: so what it grows by is asked for as well.
