@@ -33,6 +33,9 @@ std::string flags_at(const void* data) {
   return "";
 }
 
+// As a program does it: before main().
+[[maybe_unused]] const bool begun = (keep_heap_in_huge_pages(), true);
+
 class HeapPages : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,8 +43,6 @@ class HeapPages : public testing::Test {
     GTEST_SKIP() << "a sanitizer has a malloc() of its own";
 #endif
     if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) GTEST_SKIP() << "a system without huge pages";
-    static const bool once = (keep_heap_in_huge_pages(), true);
-    (void)once;
   }
 
   static bool asked_to_be_huge(const void* data) {
