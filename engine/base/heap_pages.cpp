@@ -58,12 +58,14 @@ void keep_heap_in_huge_pages() {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 // What the C library's own functions are called beside their usual names, for programs that replace those.
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(std::size_t bytes);
 void* __libc_memalign(std::size_t alignment, std::size_t bytes);
 void* __libc_realloc(void* place, std::size_t bytes);
 void __libc_free(void* place);
 }
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)
 
 namespace scree {
 

@@ -1,6 +1,7 @@
 // What is kept of large blocks, against a count of what the system is asked for.
 #include "engine/base/kept_blocks.h"
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -42,6 +43,7 @@ class KeptBlocksOf : public testing::Test {
   void* take(std::size_t pages) { return blocks_.take(pages * huge_page); }
   void free(void* block) { blocks_.keep(block, static_cast<std::ptrdiff_t>(CountedSystem::given.at(block))); }
 
+ private:
   KeptBlocks<CountedSystem> blocks_;
 };
 
@@ -65,8 +67,8 @@ TEST_F(KeptBlocksOf, AreNotWastedOnWhatIsMuchShorter) {
 
 TEST_F(KeptBlocksOf, AreAQuarterOfWhatIsInUseAtMost) {
   take(100);
-  std::vector<void*> freed;
-  for (int i = 0; i < 10; ++i) freed.push_back(take(10));
+  std::array<void*, 10> freed{};
+  for (void*& block : freed) block = take(10);
   for (void* const block : freed) free(block);
   EXPECT_EQ(CountedSystem::in_all, 120 * huge_page);
   EXPECT_EQ(take(10), freed[8]);  // those that were freed last
