@@ -71,7 +71,8 @@ namespace scree {
 
 namespace {
 
-// The system forgets for what lies behind the end of the heap what it was asked for before it.
+// The system forgets for what lies behind the end of the heap what it was asked for before it. Not in whole huge pages, so that
+// one may lie where the heap ended.
 void ask_for_growth() {
   const std::uintptr_t end = end_of_heap();
   const std::uintptr_t begin = asked_until.exchange(end, std::memory_order_relaxed);

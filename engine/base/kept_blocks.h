@@ -20,10 +20,6 @@ namespace scree {
 template <class System>
 class KeptBlocks {
  public:
-  static constexpr std::ptrdiff_t whole(std::size_t bytes) {
-    return static_cast<std::ptrdiff_t>((bytes + huge_page - 1) / huge_page * huge_page);
-  }
-
   // A block with room for so many bytes; nothing if there is no memory.
   void* take(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
@@ -57,6 +53,11 @@ class KeptBlocks {
     void* place;
     std::ptrdiff_t size;
   };
+
+  // In whole huge pages.
+  static constexpr std::ptrdiff_t whole(std::size_t bytes) {
+    return static_cast<std::ptrdiff_t>((bytes + huge_page - 1) / huge_page * huge_page);
+  }
 
   // The shortest that fits.
   void* kept_one(std::ptrdiff_t size) {

@@ -1,11 +1,12 @@
 // What is kept of large blocks, against a count of what the system is asked for.
 #include "engine/base/kept_blocks.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,14 +17,13 @@ namespace {
 // A system of so much memory, whose blocks are numbers.
 struct CountedSystem {
   static inline std::map<void*, std::size_t> given{};
-  static inline std::size_t in_all = 0, most = 0, made = 0, memory = SIZE_MAX;
+  static inline std::size_t in_all = 0, made = 0, memory = SIZE_MAX;
 
   static void* make(std::size_t bytes) {
     if (in_all + bytes > memory) return nullptr;
     void* const block = reinterpret_cast<void*>(++made * huge_page);
     given[block] = bytes;
     in_all += bytes;
-    most = std::max(most, in_all);
     return block;
   }
   static void give_back(void* block) {
@@ -36,7 +36,7 @@ class KeptBlocksOf : public testing::Test {
  protected:
   KeptBlocksOf() {
     CountedSystem::given.clear();
-    CountedSystem::in_all = CountedSystem::most = CountedSystem::made = 0;
+    CountedSystem::in_all = CountedSystem::made = 0;
     CountedSystem::memory = SIZE_MAX;
   }
 
