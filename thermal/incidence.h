@@ -25,10 +25,7 @@ class PiecesOfRows {
       : PiecesOfRows(rows, 1, [&](std::size_t, const auto& visit) { for_each_use(visit); }) {}
 
   // In the order in which they were visited, part by part.
-  [[nodiscard]] std::span<const Piece> of(int row) const {
-    const auto at = static_cast<std::size_t>(row);
-    return {pieces_.values.data() + pieces_.begin[at], pieces_.values.data() + pieces_.begin[at + 1]};
-  }
+  [[nodiscard]] std::span<const Piece> of(int row) const { return pieces_.of(static_cast<std::size_t>(row)); }
 
  private:
   Grouped<Piece, std::uint32_t> pieces_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,14 @@ template <class Value, class Start>
 struct Grouped {
   LargeVector<Start> begin;          // of each group's values, and the end
   VectorWrittenLater<Value> values;  // of a group in the order of the parts they come from, and as they come within a part
+
+  // Those of one group.
+  [[nodiscard]] std::span<Value> of(std::size_t group) {
+    return {values.data() + begin[group], values.data() + begin[group + 1]};
+  }
+  [[nodiscard]] std::span<const Value> of(std::size_t group) const {
+    return {values.data() + begin[group], values.data() + begin[group + 1]};
+  }
 };
 
 // Every thread has a band of groups and as large a share of the parts. What it finds there for another band it puts aside for

@@ -71,7 +71,7 @@ VectorWrittenLater<Along> in_order(const std::vector<Eigen::Vector3d>& points) {
   });
   for_chunks(points.size(), [&](Chunk chunk) {
     for (std::size_t slice = chunk.begin; slice < chunk.end; ++slice) {
-      std::sort(&sliced.values[0] + sliced.begin[slice], &sliced.values[0] + sliced.begin[slice + 1]);
+      std::sort(sliced.of(slice).begin(), sliced.of(slice).end());
     }
   });
   return std::move(sliced.values);

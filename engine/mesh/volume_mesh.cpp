@@ -84,11 +84,10 @@ void check_faces(const BodySpec& body, const RawMesh& raw) {
   auto sides = grouped_by_number<Side<dim>>(cells.size(), raw.points.size(),
                                             [&](std::size_t e, const auto& visit) { sides_of<dim>(cells[e], e, visit); });
   for (std::size_t node = 0; node < raw.points.size(); ++node) {
-    const auto begin = sides.values.begin() + static_cast<std::ptrdiff_t>(sides.begin[node]);
-    const auto end = sides.values.begin() + static_cast<std::ptrdiff_t>(sides.begin[node + 1]);
-    std::sort(begin, end);
-    const auto same = std::adjacent_find(begin, end, [](const auto& a, const auto& b) { return a.same_as(b); });
-    if (same == end) continue;
+    const auto here = sides.of(node);
+    std::sort(here.begin(), here.end());
+    const auto same = std::adjacent_find(here.begin(), here.end(), [](const auto& a, const auto& b) { return a.same_as(b); });
+    if (same == here.end()) continue;
     throw file_error(body,
                      fmt::format("{0}s {1} and {2} lie on the same side of a face", element_name<dim>(raw),
                                  cells[same->element].number, cells[(same + 1)->element].number),
