@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "contact/choice.h"
@@ -168,12 +169,13 @@ std::vector<TakenEdge> taken_of(const Surface<3>& surface, const std::vector<std
   return collected<std::vector<TakenEdge>>(surface.faces.size(), [&](Chunk chunk, std::vector<TakenEdge>& taken) {
     std::vector<Touching> candidates;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-      if (by_face.begin[f] == by_face.begin[f + 1]) continue;
+      const std::span<const Touching> of_face = by_face.of(f);
+      if (of_face.empty()) continue;
       for (int side = 0; side < 3; ++side) {
         const auto semi_edge = static_cast<std::uint32_t>(f * 3 + static_cast<std::size_t>(side));
         candidates.clear();
-        for (std::size_t i = by_face.begin[f]; i < by_face.begin[f + 1]; ++i) {
-          if (by_face.values[i].semi_edge == semi_edge) candidates.push_back(by_face.values[i]);
+        for (const Touching& touching : of_face) {
+          if (touching.semi_edge == semi_edge) candidates.push_back(touching);
         }
         const Touching* best = best_of(candidates, equal_distance * surface.lengths[FaceId{f}]);
         if (best != nullptr) taken.push_back({semi_edge, best->target, best->touch});

@@ -108,8 +108,7 @@ class Partners {
   [[nodiscard]] bool stands_before(FaceId face, const Point<dim>& point, BlockId beyond, const Contact<dim>& contact) const {
     const double near = contact.gap - least_gap * contact.length;
     const Point<dim>& along = surface_.normals[face];
-    for (std::size_t i = partners_.begin[face.index()]; i < partners_.begin[face.index() + 1]; ++i) {
-      const FaceId other = partners_.values[i];
+    for (const FaceId other : partners_.of(face.index())) {
       if (surface_.faces[other].block == beyond) continue;
       const Point<dim>& normal = surface_.normals[other];
       const Corners<dim> corners = corners_of(surface_, other);

@@ -81,9 +81,8 @@ OrderedPairs ordered(const Parts<FacePairs::value_type>& parts, std::size_t face
   auto pairs = grouped<FaceId>(parts.count(), faces, [&](std::size_t part, const auto& visit) {
     for (const auto& [first, second] : parts[part]) visit(static_cast<std::uint32_t>(first.value()), second);
   });
-  const auto place = [&](std::size_t at) { return pairs.values.begin() + static_cast<std::ptrdiff_t>(at); };
   for_chunks(faces, [&](Chunk chunk) {
-    for (std::size_t f = chunk.begin; f < chunk.end; ++f) std::sort(place(pairs.begin[f]), place(pairs.begin[f + 1]));
+    for (std::size_t f = chunk.begin; f < chunk.end; ++f) std::ranges::sort(pairs.of(f));
   });
   return pairs;
 }
@@ -208,9 +207,9 @@ Contacts<dim> contacts_of(const Surface<dim>& surface, double tolerance, const F
   return collected<Contacts<dim>>(surface.faces.size(), [&](Chunk chunk, std::vector<Contact<dim>>& contacts) {
     std::vector<OverlapPoint<dim>> points;
     for (std::size_t f = chunk.begin; f < chunk.end; ++f) {
-      for (std::size_t i = pairs.begin[f]; i < pairs.begin[f + 1]; ++i) {
-        overlaps.find(FaceId{f}, pairs.values[i], points);
-        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, FaceId{f}, pairs.values[i], point));
+      for (const FaceId second : pairs.of(f)) {
+        overlaps.find(FaceId{f}, second, points);
+        for (const auto& point : points) contacts.push_back(as_contact<dim>(surface, FaceId{f}, second, point));
       }
     }
   });

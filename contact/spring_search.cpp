@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <span>
 #include <utility>
 
 #include "contact/choice.h"
@@ -30,11 +30,11 @@ class NearShells {
   // Calls visit(place) for those that are close, or for the others, and whose bound is not above the limit.
   template <class Visit>
   SCREE_INLINE void for_each(const auto& shells, std::size_t shell, bool close, float limit, const Visit& visit) const {
-    const std::uint32_t end = others_.begin[shell + 1];
-    for (std::uint32_t n = others_.begin[shell]; n < end; ++n) {
-      constexpr std::uint32_t ahead = 3;
-      __builtin_prefetch(&shells[others_.values[std::min(n + ahead, end - 1)].place]);
-      const NearShell& other = others_.values[n];
+    const std::span<const NearShell> others = others_.of(shell);
+    for (std::size_t n = 0; n < others.size(); ++n) {
+      constexpr std::size_t ahead = 3;
+      __builtin_prefetch(&shells[others[std::min(n + ahead, others.size() - 1)].place]);
+      const NearShell& other = others[n];
       if ((other.close != 0) == close && other.bound <= limit) visit(other.place);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <span>
 
 #include "contact/semi_spring.h"
 #include "engine/base/grouped.h"
@@ -83,12 +84,11 @@ LargeVector<FaceId> same_keys(const LargeVector<FaceKey>& keys) {
   LargeVector<FaceId> others(keys.size());
   for_chunks(groups, [&](Chunk chunk) {
     for (std::size_t group = chunk.begin; group < chunk.end; ++group) {
-      const KeyOf *begin = grouped.values.data() + grouped.begin[group],
-                  *end = grouped.values.data() + grouped.begin[group + 1];
-      for (const KeyOf* one = begin; one < end; ++one) {
+      const std::span<const KeyOf> all = grouped.of(group);
+      for (auto one = all.begin(); one != all.end(); ++one) {
         const auto same = [&](const KeyOf& other) { return other.key == one->key; };
-        const KeyOf* other = std::find_if(one + 1, end, same);
-        if (other == end || std::count_if(begin, end, same) != 2) continue;
+        const auto other = std::find_if(one + 1, all.end(), same);
+        if (other == all.end() || std::ranges::count_if(all, same) != 2) continue;
         others[one->face.index()] = other->face;
         others[other->face.index()] = one->face;
       }
