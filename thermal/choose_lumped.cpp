@@ -183,14 +183,15 @@ class Chooser {
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
-      PatchResistance& largest = of_kind(first->patch, block);
+      PatchResistance largest;
       for (const Patch& patch : patches_of({first, last}, inside.centroid())) {
         const double constriction = constriction_of(patch, inside);
         const double bulk = inside.bulk(patch.moments);
-        largest = {std::max(largest.bulk, bulk), std::max(largest.constriction, constriction)};
+        largest = largest_of(largest, {bulk, constriction});
         block.biot += patch.conductance * bulk;
         constricted = std::max(constricted, patch.conductance * constriction);
       }
+      keep(first->patch, largest, block);
       first = last;
     }
     block.biot += constricted;
@@ -244,9 +245,13 @@ class Chooser {
     }
   }
 
-  PatchResistance& of_kind(std::size_t patch, LumpedBlock& block) const {
-    if (patch < mesh_.blocks.size()) return block.contact;
-    return patch < mesh_.blocks.size() + model_.exchanges.size() ? block.exchange : block.load;
+  void keep(std::size_t patch, const PatchResistance& resists, LumpedBlock& block) const {
+    if (patch < mesh_.blocks.size()) {
+      block.contacts.push_back({BlockId{patch}, resists});
+    } else {
+      PatchResistance& kind = patch < mesh_.blocks.size() + model_.exchanges.size() ? block.exchange : block.load;
+      kind = largest_of(kind, resists);
+    }
   }
 
   // One, or of a load that heats one part and cools another those two.

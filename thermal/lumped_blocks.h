@@ -12,21 +12,30 @@
 
 namespace scree::thermal {
 
-// How far from its mean a unit of heat flow brings a place of a block (inner_resistance.h), the largest of its patches of a
-// kind.
+// How far from its mean a unit of heat flow through a patch brings a place of a block (inner_resistance.h).
 struct PatchResistance {
   double bulk = 0;          // [K/W]
   double constriction = 0;  // [K/W]
 };
 
+inline PatchResistance largest_of(const PatchResistance& one, const PatchResistance& other) {
+  return {std::max(one.bulk, other.bulk), std::max(one.constriction, other.constriction)};
+}
+
+// All contacts with one other block.
+struct ContactPatch {
+  BlockId with;
+  PatchResistance resists;
+};
+
 struct LumpedBlock {
   BlockId block;
-  NodeId row;                // of the heat model
-  double biot = 0;           // conductances through its surface times what its inside resists (choose_lumped.h) [-]
-  PatchResistance contact;   // where heat comes through contacts with one other block,
-  PatchResistance exchange;  // from surroundings,
-  PatchResistance load;      // or is applied
-  double start_spread = 0;   // largest distance of a temperature at the start from the block's [K]
+  NodeId row;                          // of the heat model
+  double biot = 0;                     // conductances through its surface times what its inside resists (choose_lumped.h) [-]
+  std::vector<ContactPatch> contacts;  // ascending
+  PatchResistance exchange;            // where heat comes from surroundings, the largest of its patches,
+  PatchResistance load;                // or is applied, likewise
+  double start_spread = 0;             // largest distance of a temperature at the start from the block's [K]
 };
 
 class LumpedBlocks {

@@ -16,6 +16,17 @@ namespace {
 
 constexpr double accuracy = 1e-3;  // of e, which is an estimate: two digits would do
 
+// Where a block touches another one. A row that nodes of several blocks are tied to goes by one of them: if the block does not
+// touch that one, what resists the most.
+PatchResistance resistance_beside(const LumpedBlock& block, BlockId other) {
+  const auto patch = std::partition_point(block.contacts.begin(), block.contacts.end(),
+                                          [&](const ContactPatch& one) { return one.with < other; });
+  if (patch != block.contacts.end() && patch->with == other) return patch->resists;
+  PatchResistance largest;
+  for (const ContactPatch& one : block.contacts) largest = largest_of(largest, one.resists);
+  return largest;
+}
+
 }  // namespace
 
 struct LumpingEstimate::Patch {
@@ -57,6 +68,7 @@ void LumpingEstimate::add_neighbours(int position) {
   for (auto first = links_.begin() + begin; first != links_.end();) {
     const auto last = std::find_if(first, links_.end(), [&](const Link& link) { return block_of(link) != block_of(*first); });
     Neighbour neighbour{position, static_cast<int>(last - first)};
+    neighbour.resists = resistance_beside(blocks_[static_cast<std::size_t>(position)], block_of(*first));
     std::for_each(first, last, [&](const Link& link) { neighbour.conductance -= link.entry; });
     neighbours_.push_back(neighbour);
     first = last;
@@ -84,7 +96,7 @@ void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const D
   std::span<const Link> left = links_;
   for (const Neighbour& neighbour : neighbours_) {
     const LumpedBlock& block = blocks_[static_cast<std::size_t>(neighbour.position)];
-    Patch patch{static_cast<std::size_t>(neighbour.position), 0, neighbour.conductance, block.contact,
+    Patch patch{static_cast<std::size_t>(neighbour.position), 0, neighbour.conductance, neighbour.resists,
                 left.first(static_cast<std::size_t>(neighbour.links))};
     left = left.subspan(patch.links.size());
     const double own = temperature[block.row.value()];

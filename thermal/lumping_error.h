@@ -2,8 +2,9 @@
 //
 // Heat flows q_p [W] through the patches of a lumped block make its inside differ from its one temperature by at most
 //   theta = sum R |q_p| + max c |q_p|
-// wherever one looks, R the bulk resistance and c the constriction of patches of that kind (inner_resistance.h). That also
-// takes from the drop over its joints, so that each carries less,
+// wherever one looks, R the bulk resistance and c the constriction of a patch (inner_resistance.h): all contacts with one other
+// block, or what comes from surroundings or is applied, of which the largest count. That also takes from the drop over its
+// joints, so that each carries less,
 //   g_p s_p,   s_p = (sum of R |q| over all that flows the same way as q_p) + c |q_p|,
 // and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
 //   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
@@ -44,6 +45,7 @@ class LumpingEstimate {
     int position;            // of the lumped block
     int links;               // how many
     double conductance = 0;  // of all of them [W/K]
+    PatchResistance resists = {};
   };
   struct Flows;
   struct Patch;

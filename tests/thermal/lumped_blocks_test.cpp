@@ -92,11 +92,14 @@ TYPED_TEST(LumpedBlocksIn, AreChosenByTheirBiotNumber) {
   EXPECT_FALSE(model.lumped->contain(BlockId{2}));
   // Heated evenly at one end a block of length L has a place at L/3k from its mean; semi-springs sit in the corners.
   const LumpedBlock& end = model.lumped->all()[0];
+  ASSERT_EQ(end.contacts.size(), 1u);
+  EXPECT_EQ(end.contacts[0].with, BlockId{1});
+  const PatchResistance& resists = end.contacts[0].resists;
   const double area = std::pow(test::side, dim - 1);
-  EXPECT_GE(end.contact.bulk, test::side / (3 * 4.0 * area));
-  EXPECT_LE(end.contact.bulk, 1.2 * test::side / (3 * 4.0 * area));
+  EXPECT_GE(resists.bulk, test::side / (3 * 4.0 * area));
+  EXPECT_LE(resists.bulk, 1.2 * test::side / (3 * 4.0 * area));
   const double joint = test::conductance_for_biot(0.001) * area;
-  EXPECT_NEAR(end.biot, joint * (end.contact.bulk + end.contact.constriction), 1e-12);
+  EXPECT_NEAR(end.biot, joint * (resists.bulk + resists.constriction), 1e-12);
 }
 
 TYPED_TEST(LumpedBlocksIn, WithALimitOfZeroAreNone) {
@@ -201,6 +204,30 @@ TEST(LumpedBlocks, KnowTheirErrorWhereHeatComesInAtOneEndAndLeavesAtTheOther) {
   const double stated = test::heated(row.model(), 36000).lumping.largest;
   EXPECT_GT(stated, real);
   EXPECT_LT(stated, 4 * real);
+}
+
+// A speck leans on a block of its own temperature. What its small joint resists is nothing to what passes through the large
+// one.
+TEST(LumpedBlocks, KnowTheSameErrorWhereASpeckOfTheirTemperatureTouchesThem) {
+  const auto stated = [](double speck) {
+    std::vector<test::Slab<3>> slabs{test::bar<3>(test::side, 2, 2, test::side), test::bar<3>(test::side, 2, 2, test::side)};
+    slabs[1].low[0] = test::side;
+    if (speck > 0) {
+      slabs.push_back(test::bar<3>(speck, 1, 1, speck));
+      slabs[2].low = {-speck, 0.4 * test::side, 0.4 * test::side};
+    }
+    const auto mesh = test::slab_mesh<3>(slabs);
+    HeatOptions options = test::options_for(mesh, 400);
+    options.initial_temperature[BodyId{1}] = 300.0;
+    options.joint.law = JointConductance{test::conductance_for_biot(0.01)};
+    options.blocks.model = BlockModel::lumped;
+    const auto contacts = contact::find_contacts(mesh, {.model = contact::Model::overlap});
+    const HeatModel model = make_heat_model(mesh, test::rock_only(), contacts, options);
+    EXPECT_EQ(model.conductance.nonZeros(), speck > 0 ? 7 : 4);
+    return test::heated(model).lumping.largest;
+  };
+  const double alone = stated(0);
+  for (const double speck : {0.02 * test::side, 0.001 * test::side}) EXPECT_NEAR(stated(speck) / alone, 1, 0.01);
 }
 
 // From 50,000 rows on a neighbour's rows do not follow each other (row_order.h).
