@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,8 +65,8 @@ class Chooser {
     for (const BlockId b : mesh_.blocks.ids()) {
       const auto last = std::find_if(first, entries.end(), [b](const Entry& entry) { return entry.block != b; });
       if (wanted_[b] != BlockModel::meshed) {
-        const LumpedBlock block = described(b, {first, last});
-        if (wanted_[b] == BlockModel::lumped || block.biot < options_.blocks.largest_biot) chosen.push_back(block);
+        LumpedBlock block = described(b, {first, last});
+        if (wanted_[b] == BlockModel::lumped || block.biot < options_.blocks.largest_biot) chosen.push_back(std::move(block));
       }
       first = last;
     }
