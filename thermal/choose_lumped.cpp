@@ -247,11 +247,10 @@ class Chooser {
   }
 
   void keep(std::size_t patch, const PatchResistance& resists, LumpedBlock& block) const {
-    if (patch < mesh_.blocks.size()) {
-      block.contacts.push_back({BlockId{patch}, resists});
+    if (patch < mesh_.blocks.size() + model_.exchanges.size()) {
+      block.patches.push_back({patch, resists});
     } else {
-      PatchResistance& kind = patch < mesh_.blocks.size() + model_.exchanges.size() ? block.exchange : block.load;
-      kind = largest_of(kind, resists);
+      block.load = largest_of(block.load, resists);
     }
   }
 

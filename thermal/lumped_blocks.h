@@ -22,20 +22,19 @@ inline PatchResistance largest_of(const PatchResistance& one, const PatchResista
   return {std::max(one.bulk, other.bulk), std::max(one.constriction, other.constriction)};
 }
 
-// All contacts with one other block.
-struct ContactPatch {
-  BlockId with;
+// All contacts with one other block, or all that one exchange reaches.
+struct LumpedPatch {
+  std::size_t number;  // of the other block; or of the exchange, counted on from the number of blocks
   PatchResistance resists;
 };
 
 struct LumpedBlock {
   BlockId block;
-  NodeId row;                          // of the heat model
-  double biot = 0;                     // conductances through its surface times what its inside resists (choose_lumped.h) [-]
-  std::vector<ContactPatch> contacts;  // ascending
-  PatchResistance exchange;            // where heat comes from surroundings, the largest of its patches,
-  PatchResistance load;                // or is applied, likewise
-  double start_spread = 0;             // largest distance of a temperature at the start from the block's [K]
+  NodeId row;                        // of the heat model
+  double biot = 0;                   // conductances through its surface times what its inside resists (choose_lumped.h) [-]
+  std::vector<LumpedPatch> patches;  // ascending
+  PatchResistance load;              // where heat is applied, the largest of these patches
+  double start_spread = 0;           // largest distance of a temperature at the start from the block's [K]
 };
 
 class LumpedBlocks {
@@ -47,6 +46,9 @@ class LumpedBlocks {
   [[nodiscard]] bool contain(BlockId block) const { return at_[block] >= 0; }
   // Its position in all(), or -1.
   [[nodiscard]] int position(BlockId block) const { return at_[block]; }
+
+  // How many blocks there are, lumped or not.
+  [[nodiscard]] std::size_t of_blocks() const { return at_.size(); }
 
   [[nodiscard]] const std::vector<LumpedBlock>& all() const { return blocks_; }
   [[nodiscard]] std::vector<LumpedBlock>& all() { return blocks_; }

@@ -16,62 +16,87 @@ namespace {
 
 constexpr double accuracy = 1e-3;  // of e, which is an estimate: two digits would do
 
-// Where a block touches another one. A row that nodes of several blocks are tied to goes by one of them: if the block does not
-// touch that one, what resists the most.
-PatchResistance resistance_beside(const LumpedBlock& block, BlockId other) {
-  const auto patch = std::partition_point(block.contacts.begin(), block.contacts.end(),
-                                          [&](const ContactPatch& one) { return one.with < other; });
-  if (patch != block.contacts.end() && patch->with == other) return patch->resists;
+// Of one of a block's patches. A row that nodes of several blocks are tied to goes by one of them: if the block does not touch
+// that one, what resists the most.
+PatchResistance resistance_of(const LumpedBlock& block, std::size_t patch) {
+  const auto known = std::partition_point(block.patches.begin(), block.patches.end(),
+                                          [patch](const LumpedPatch& one) { return one.number < patch; });
+  if (known != block.patches.end() && known->number == patch) return known->resists;
   PatchResistance largest;
-  for (const ContactPatch& one : block.contacts) largest = largest_of(largest, one.resists);
+  for (const LumpedPatch& one : block.patches) largest = largest_of(largest, one.resists);
   return largest;
 }
 
+// Heat that flows through something, a part of it in and a part of it out [W].
+struct BothWays {
+  double in = 0;
+  double out = 0;
+
+  void add(double heat) { (heat > 0 ? in : out) += std::abs(heat); }
+};
+
 }  // namespace
 
-struct LumpingEstimate::Patch {
-  std::size_t position = 0;  // of its block among the lumped ones
-  double heat = 0;           // into the block [W]
-  double conductance = 0;    // [W/K]
-  PatchResistance resists;
-  std::span<const Link> links = {};  // that make it; none for an exchange
+// Through one link or place.
+struct LumpingEstimate::Flow {
+  double heat;         // into the block [W]
+  double conductance;  // [W/K]
 };
 
 // What flows through one block's patches makes of it.
-struct LumpingEstimate::Flows {
+struct LumpingEstimate::Inside {
   double in = 0;           // sum of R |q| of what flows into it [K]
   double out = 0;          // out of it [K]
   double constricted = 0;  // max c |q| [K]
 
-  void add(double heat, const PatchResistance& resists) {
-    (heat > 0 ? in : out) += resists.bulk * std::abs(heat);
-    constricted = std::max(constricted, resists.constriction * std::abs(heat));
+  void add(const BothWays& heat, const PatchResistance& resists) {
+    in += resists.bulk * heat.in;
+    out += resists.bulk * heat.out;
+    constricted = std::max(constricted, resists.constriction * std::max(heat.in, heat.out));
   }
+  [[nodiscard]] double largest() const { return in + out + constricted; }
 };
 
 LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   conductance_ = free_.block(model.conductance);
   if (!is_symmetric(model)) unit_conductance_ = free_.block(model.varying->unit_conductance);
-  for (std::size_t i = 0; i < blocks_.size(); ++i) add_neighbours(static_cast<int>(i));
+  for (std::size_t i = 0; i < blocks_.size(); ++i) add_links(static_cast<int>(i));
+  for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(static_cast<int>(e));
 }
 
 // The rows of a neighbour need not follow each other.
-void LumpingEstimate::add_neighbours(int position) {
-  const auto block_of = [this](const Link& link) { return model_.blocks[NodeId(static_cast<std::size_t>(link.row))]; };
-  const int row = blocks_[static_cast<std::size_t>(position)].row.value();
+void LumpingEstimate::add_links(int block) {
+  const auto block_of = [this](const Link& link) { return model_.blocks[NodeId(static_cast<std::size_t>(link.other))]; };
+  const LumpedBlock& of = blocks_[static_cast<std::size_t>(block)];
   const auto begin = static_cast<std::ptrdiff_t>(links_.size());
-  for (SparseMatrix::InnerIterator entry(model_.conductance, row); entry; ++entry)
-    if (entry.index() != row) links_.push_back({static_cast<int>(entry.index()), entry.value()});
+  for (SparseMatrix::InnerIterator entry(model_.conductance, of.row.value()); entry; ++entry) {
+    if (entry.index() != of.row.value() && entry.value() != 0)
+      links_.push_back({of.row.value(), static_cast<int>(entry.index()), -entry.value()});
+  }
   std::stable_sort(links_.begin() + begin, links_.end(),
                    [&](const Link& one, const Link& other) { return block_of(one) < block_of(other); });
   for (auto first = links_.begin() + begin; first != links_.end();) {
-    const auto last = std::find_if(first, links_.end(), [&](const Link& link) { return block_of(link) != block_of(*first); });
-    Neighbour neighbour{position, static_cast<int>(last - first)};
-    neighbour.resists = resistance_beside(blocks_[static_cast<std::size_t>(position)], block_of(*first));
-    std::for_each(first, last, [&](const Link& link) { neighbour.conductance -= link.entry; });
-    neighbours_.push_back(neighbour);
+    const BlockId other = block_of(*first);
+    const auto last = std::find_if(first, links_.end(), [&](const Link& link) { return block_of(link) != other; });
+    patches_.push_back({block, static_cast<int>(last - first), resistance_of(of, other.index())});
     first = last;
+  }
+}
+
+// An exchange that differs from place to place has several of them in a row (share_rows.h), which follow each other.
+void LumpingEstimate::add_places(int exchange) {
+  const std::vector<NodeId>& rows = model_.exchanges[static_cast<std::size_t>(exchange)].on.nodes;
+  const std::size_t number = model_.lumped->of_blocks() + static_cast<std::size_t>(exchange);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const int block = model_.lumped->position(model_.blocks[rows[i]]);
+    if (block < 0) continue;
+    places_.push_back({rows[i].value(), exchange, static_cast<Eigen::Index>(i)});
+    if (i > 0 && rows[i] == rows[i - 1]) {
+      ++patches_.back().size;
+    } else {
+      patches_.push_back({block, 1, resistance_of(blocks_[static_cast<std::size_t>(block)], number)});
+    }
   }
 }
 
@@ -84,62 +109,72 @@ LumpingError LumpingEstimate::start() const {
 
 void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length,
                               LumpingError& error) const {
-  const std::vector<Flows> through = flows(temperature, drive);
+  const std::vector<Flow> through = flows(temperature, drive);
+  const std::vector<Inside> within = insides(through, drive);
   double inside = 0;
-  for (const Flows& of : through) inside = std::max(inside, of.in + of.out + of.constricted);
-  carry(missing(temperature, drive, through), balance_.linearised(temperature, drive), length, error.carried);
+  for (const Inside& one : within) inside = std::max(inside, one.largest());
+  carry(missing(through, within), balance_.linearised(temperature, drive), length, error.carried);
   error.largest = std::max(error.largest, inside + error.carried.lpNorm<Eigen::Infinity>());
 }
 
-template <class Visit>
-void LumpingEstimate::for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const {
-  std::span<const Link> left = links_;
-  for (const Neighbour& neighbour : neighbours_) {
-    const LumpedBlock& block = blocks_[static_cast<std::size_t>(neighbour.position)];
-    Patch patch{static_cast<std::size_t>(neighbour.position), 0, neighbour.conductance, neighbour.resists,
-                left.first(static_cast<std::size_t>(neighbour.links))};
-    left = left.subspan(patch.links.size());
-    const double own = temperature[block.row.value()];
-    for (const Link& link : patch.links) patch.heat -= link.entry * (temperature[link.row] - own);
-    if (patch.conductance > 0) visit(patch);
+std::vector<LumpingEstimate::Flow> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {
+  std::vector<Flow> flows;
+  flows.reserve(links_.size() + places_.size());
+  for (const Link& link : links_)
+    flows.push_back({link.conductance * (temperature[link.other] - temperature[link.row]), link.conductance});
+  for (const Place& place : places_) {
+    const Exchange::Law law = model_.exchanges[static_cast<std::size_t>(place.exchange)].law;
+    const ExchangeRates& rates = drive.exchanges[static_cast<std::size_t>(place.exchange)];
+    const double t = temperature[place.row];
+    flows.push_back({exchanged_heat(law, rates, place.at, t), exchange_slope(law, rates, place.at, t)});
   }
-  for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
-    const Exchange& exchange = model_.exchanges[e];
-    const ExchangeRates& rates = drive.exchanges[e];
-    for (std::size_t n = 0; n < exchange.on.nodes.size(); ++n) {
-      const NodeId row = exchange.on.nodes[n];
-      const int position = model_.lumped->position(model_.blocks[row]);
-      if (position < 0) continue;
-      const auto at = static_cast<Eigen::Index>(n);
-      const double t = temperature[row.value()];
-      visit(Patch{static_cast<std::size_t>(position), exchanged_heat(exchange.law, rates, at, t),
-                  exchange_slope(exchange.law, rates, at, t), blocks_[static_cast<std::size_t>(position)].exchange});
-    }
+  return flows;
+}
+
+template <class Visit>
+void LumpingEstimate::for_each_patch(const std::vector<Flow>& flows, const Visit& visit) const {
+  std::span<const Flow> left = flows;
+  for (const Patch& patch : patches_) {
+    const auto size = static_cast<std::size_t>(patch.size);
+    visit(patch, left.first(size));
+    left = left.subspan(size);
   }
 }
 
-std::vector<LumpingEstimate::Flows> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {
-  std::vector<Flows> result(blocks_.size());
-  for_each_patch(temperature, drive, [&](const Patch& patch) { result[patch.position].add(patch.heat, patch.resists); });
+std::vector<LumpingEstimate::Inside> LumpingEstimate::insides(const std::vector<Flow>& flows, const Drive& drive) const {
+  std::vector<Inside> insides(blocks_.size());
+  for_each_patch(flows, [&](const Patch& patch, std::span<const Flow> through) {
+    BothWays heat;
+    for (const Flow& flow : through) heat.add(flow.heat);
+    insides[static_cast<std::size_t>(patch.block)].add(heat, patch.resists);
+  });
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const double net = drive.load[blocks_[i].row.value()], size = drive.load_sizes[blocks_[i].row.value()];
-    result[i].add(0.5 * (size + net), blocks_[i].load);
-    result[i].add(-0.5 * (size - net), blocks_[i].load);
+    insides[i].add({0.5 * (size + net), 0.5 * (size - net)}, blocks_[i].load);
   }
-  return result;
+  return insides;
 }
 
 // Into each row [W].
-Eigen::VectorXd LumpingEstimate::missing(const Eigen::VectorXd& temperature, const Drive& drive,
-                                         const std::vector<Flows>& flows) const {
-  Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
-  for_each_patch(temperature, drive, [&](const Patch& patch) {
-    const LumpedBlock& block = blocks_[patch.position];
-    const Flows& of_block = flows[patch.position];
-    const double surface = (patch.heat > 0 ? of_block.in : of_block.out) + patch.resists.constriction * std::abs(patch.heat);
-    const double less = std::copysign(patch.conductance * surface, patch.heat);
-    heat[block.row.value()] -= less;
-    for (const Link& link : patch.links) heat[link.row] -= less * link.entry / patch.conductance;  // entries are negative
+Eigen::VectorXd LumpingEstimate::missing(const std::vector<Flow>& flows, const std::vector<Inside>& insides) const {
+  Eigen::VectorXd heat = Eigen::VectorXd::Zero(model_.capacity.size());
+  auto link = links_.begin();
+  auto place = places_.begin();
+  for_each_patch(flows, [&](const Patch& patch, std::span<const Flow> through) {
+    const Inside& inside = insides[static_cast<std::size_t>(patch.block)];
+    BothWays passes;
+    for (const Flow& flow : through) passes.add(flow.heat);
+    for (const Flow& flow : through) {
+      const double constricted = patch.resists.constriction * (flow.heat > 0 ? passes.in : passes.out);
+      const double surface = (flow.heat > 0 ? inside.in : inside.out) + constricted;
+      const double less = flow.heat == 0 ? 0 : std::copysign(flow.conductance * surface, flow.heat);
+      if (link != links_.end()) {
+        heat[link->row] -= less;
+        heat[link++->other] += less;
+      } else {
+        heat[place++->row] -= less;
+      }
+    }
   });
   return heat;
 }

@@ -3,9 +3,10 @@
 // Heat flows q_p [W] through the patches of a lumped block make its inside differ from its one temperature by at most
 //   theta = sum R |q_p| + max c |q_p|
 // wherever one looks, R the bulk resistance and c the constriction of a patch (inner_resistance.h): all contacts with one other
-// block, or what comes from surroundings or is applied, of which the largest count. That also takes from the drop over its
-// joints, so that each carries less,
-//   g_p s_p,   s_p = (sum of R |q| over all that flows the same way as q_p) + c |q_p|,
+// block, all that one exchange with surroundings reaches, or what is applied, of which the largest count. What flows into the
+// block at some places of a patch and out of it at others counts both ways. It also takes from the drop over the joint at each
+// place, so that this carries less,
+//   g s,   s = (sum of R |q| over all that flows the same way as there) + c |q_p|,
 // and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
 //   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
 // which backward Euler steps follow beside the run's own. The estimate is the largest theta plus the largest |e|. In the first
@@ -35,36 +36,43 @@ class LumpingEstimate {
   void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) const;
 
  private:
-  // What a lumped block's row has in common with another row: an entry of K off its diagonal.
+  // Where heat passes between a lumped block's row and another one: an entry of K off its diagonal.
   struct Link {
-    int row;       // the other one
-    double entry;  // [W/K]
+    int row;
+    int other;
+    double conductance;  // [W/K]
   };
-  // One of the blocks that a lumped block touches.
-  struct Neighbour {
-    int position;            // of the lumped block
-    int links;               // how many
-    double conductance = 0;  // of all of them [W/K]
-    PatchResistance resists = {};
+  // Where it passes between that row and its surroundings.
+  struct Place {
+    int row;
+    int exchange;
+    Eigen::Index at;  // among what the exchange reaches
   };
-  struct Flows;
-  struct Patch;
-  // Every patch of lumped blocks, each by visit(Patch).
+  struct Patch {
+    int block;  // its position among the lumped ones
+    int size;   // how many links or places
+    PatchResistance resists;
+  };
+  struct Flow;
+  struct Inside;
+  void add_links(int block);
+  void add_places(int exchange);
+  [[nodiscard]] std::vector<Flow> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
+  // Every patch with what flows through its links or places, each by visit(const Patch&, std::span<const Flow>).
   template <class Visit>
-  void for_each_patch(const Eigen::VectorXd& temperature, const Drive& drive, const Visit& visit) const;
-  [[nodiscard]] std::vector<Flows> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
-  [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& temperature, const Drive& drive,
-                                        const std::vector<Flows>& flows) const;
-  void add_neighbours(int position);
+  void for_each_patch(const std::vector<Flow>& flows, const Visit& visit) const;
+  [[nodiscard]] std::vector<Inside> insides(const std::vector<Flow>& flows, const Drive& drive) const;
+  [[nodiscard]] Eigen::VectorXd missing(const std::vector<Flow>& flows, const std::vector<Inside>& insides) const;
   void carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) const;
 
   const HeatModel& model_;
   const std::vector<LumpedBlock>& blocks_;
   HeatBalance balance_;
   FreeNodes free_;
-  // Of all lumped blocks in turn: what a step goes through lies in the order in which it does.
-  std::vector<Neighbour> neighbours_;
+  // Links of all lumped blocks in turn, then places of all exchanges; patches in the order of both.
   std::vector<Link> links_;
+  std::vector<Place> places_;
+  std::vector<Patch> patches_;
   SparseMatrix conductance_;       // between free rows [W/K]
   SparseMatrix unit_conductance_;  // of U, if there is one
 };

@@ -92,9 +92,9 @@ TYPED_TEST(LumpedBlocksIn, AreChosenByTheirBiotNumber) {
   EXPECT_FALSE(model.lumped->contain(BlockId{2}));
   // Heated evenly at one end a block of length L has a place at L/3k from its mean; semi-springs sit in the corners.
   const LumpedBlock& end = model.lumped->all()[0];
-  ASSERT_EQ(end.contacts.size(), 1u);
-  EXPECT_EQ(end.contacts[0].with, BlockId{1});
-  const PatchResistance& resists = end.contacts[0].resists;
+  ASSERT_EQ(end.patches.size(), 1u);
+  EXPECT_EQ(end.patches[0].number, 1u);
+  const PatchResistance& resists = end.patches[0].resists;
   const double area = std::pow(test::side, dim - 1);
   EXPECT_GE(resists.bulk, test::side / (3 * 4.0 * area));
   EXPECT_LE(resists.bulk, 1.2 * test::side / (3 * 4.0 * area));
@@ -228,6 +228,42 @@ TEST(LumpedBlocks, KnowTheSameErrorWhereASpeckOfTheirTemperatureTouchesThem) {
   };
   const double alone = stated(0);
   for (const double speck : {0.02 * test::side, 0.001 * test::side}) EXPECT_NEAR(stated(speck) / alone, 1, 0.01);
+}
+
+// A window of the surface loses heat to what is hardly colder, the opposite side to cold air.
+TEST(LumpedBlocks, KnowTheSameErrorWhereASmallWindowOfThemLosesHardlyAnything) {
+  const auto stated = [](bool window) {
+    auto row = row_of_cubes<3>(1, 10);
+    const auto cooled = [&](const Aabb<3>& within, double surroundings, const char* name) {
+      row.options.boundaries.push_back(test::convection(BodyId{0}, 40, surroundings));
+      row.options.boundaries.back().region.within = within;
+      row.options.boundaries.back().name = name;
+    };
+    cooled(test::between_x(test::side, test::side), 300, "air");
+    const double low = 0.4 * test::side, high = 0.5 * test::side, end = 1e-9 * test::side;
+    if (window)
+      cooled({Eigen::Vector3d(-end, low - end, low - end), Eigen::Vector3d(end, high + end, high + end)}, 399, "window");
+    row.options.blocks.model = BlockModel::lumped;
+    return test::heated(row.model()).lumping.largest;
+  };
+  EXPECT_NEAR(stated(true) / stated(false), 1, 0.001);
+}
+
+// Written as a formula of the place, the same coefficient makes an entry of each node of the spot that it cools.
+TEST(LumpedBlocks, KnowTheSameErrorWhereACoefficientIsAFormulaOfThePlace) {
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m2/K", quantity::heat_transfer));
+  const auto stated = [&](const Function& coefficient) {
+    auto row = row_of_cubes<3>(1, 10);
+    Boundary spot = test::convection(BodyId{0}, 0, 300);
+    std::get<Convection>(spot.condition).coefficient = coefficient;
+    spot.region.within = Aabb<3>{Eigen::Vector3d(-1e-9, -1e-9, -1e-9), Eigen::Vector3d(1e-9, 0.0201, 0.0201)};
+    row.options.boundaries.push_back(spot);
+    row.options.blocks.model = BlockModel::lumped;
+    return test::heated(row.model()).lumping.largest;
+  };
+  const double constant = stated(40);
+  EXPECT_GT(constant, 1);
+  EXPECT_NEAR(stated(Function::from_expression("40 + 0*x", unit, ValueRule{})) / constant, 1, 1e-9);
 }
 
 // From 50,000 rows on a neighbour's rows do not follow each other (row_order.h).
