@@ -1,5 +1,8 @@
 #include "thermal/choose_scheme.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "thermal/kirchhoff_matrix.h"
@@ -17,6 +20,7 @@ constexpr double seconds_per_entry = 7e-10;  // of K, in a product with two colu
 // What an analysis must promise to save, of what it takes: most of the promise is not kept, as a quick ordering tells the least
 // only.
 constexpr double least_gain = 3;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 UseOfSteps use_of_steps(const HeatModel& model) {
   if (has_constant_properties(model)) return use_of_linear_steps;
@@ -46,25 +50,38 @@ class RunCosts {
   StepCosts costs_;
 };
 
+// What is known of implicit steps before the analysis of their factorisation.
+struct Outlook {
+  bool may_pay = false;
+  double surely_short = 0;  // steps of up to this are explicit, whatever the analysis says [s]; 0 where it is to say
+};
+
 // Whether implicit steps, be they only the longer ones, may save so much that it pays to find out, for which the analysis of
-// their factorisation is needed: that takes a fifth of what the explicit steps of a pile take.
-bool implicit_may_pay(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
+// their factorisation is needed: that takes a fifth of what the explicit steps of a pile take. The dearer implicit steps are,
+// the longer are those that are left to explicit ones: what the least they can cost leaves to these stays with them.
+Outlook outlook(const HeatModel& model, LinearSolver solver, const RunCosts& costs) {
   const double stabilised = costs.stabilised();
-  const double multigrid = costs.mixed(multigrid_cost(entries_of(model))).seconds;
-  if (solver == LinearSolver::multigrid) return multigrid <= stabilised;
-  if (solver == LinearSolver::automatic && multigrid <= stabilised) return true;
+  const StepMix multigrid = costs.mixed(multigrid_cost(entries_of(model)));
+  if (solver == LinearSolver::multigrid) return {multigrid.seconds <= stabilised};
+  const bool by_multigrid = solver == LinearSolver::automatic && multigrid.seconds <= stabilised;
   const auto unknowns = static_cast<double>(model.capacity.size()) - static_cast<double>(model.fixed_nodes.size());
   const double bearable = stabilised - least_gain * seconds_of_analysis(unknowns);
-  if (costs.mixed(least_cholesky_cost(unknowns)).seconds > bearable) return false;
+  if (!by_multigrid && costs.mixed(least_cholesky_cost(unknowns)).seconds > bearable) return {};
   const FactorSize quick = quick_factor_size(model, FreeNodes(model));
-  return !quick.possible || costs.mixed(least_cholesky_cost(quick)).seconds <= bearable;
+  if (!quick.possible) return {true};
+  const StepMix least = costs.mixed(least_cholesky_cost(quick));
+  const bool surely_pay = by_multigrid || costs.mixed(cholesky_cost(quick)).seconds <= stabilised;
+  const double longest_short =
+      solver == LinearSolver::automatic ? std::min(least.longest_short, multigrid.longest_short) : least.longest_short;
+  return {by_multigrid || least.seconds <= bearable, surely_pay ? longest_short : 0};
 }
 
 ChosenScheme implicit(const HeatModel& model, const TimeOptions& options, const std::string& why) {
   const StepForecast forecast = forecast_steps(stable_step(model).step, step_times(options, varies_in_time(model)));
   auto scheme = make_implicit_scheme(model, options.solver, use_of_steps(model)(forecast));
   const std::string of_solver = scheme->solver().why;
-  return {std::move(scheme), of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver)};
+  const std::string text = of_solver.empty() ? why : fmt::format("{}; solver: {}", why, of_solver);
+  return {std::move(scheme), [text] { return text; }};
 }
 
 ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
@@ -75,18 +92,11 @@ ChosenScheme fourth_order(const HeatModel& model, Integrator asked) {
                              "that change in time",
                              "Set space_order: 2"));
   }
-  return {make_stabilised_scheme(model), "heat.space_order: 4 needs explicit steps"};
+  return {make_stabilised_scheme(model), [] { return "heat.space_order: 4 needs explicit steps"; }};
 }
 
-ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
-  StableSteps stable(model);
-  const RunCosts costs(model, options, stable.at_start().step);
-  if (!implicit_may_pay(model, options.solver, costs)) {
-    return {make_stabilised_scheme(model, std::move(stable)),
-            fmt::format("some {:.0f} products with K, less than implicit steps take", costs.products())};
-  }
-  auto scheme =
-      make_implicit_scheme(model, options.solver, [&](const SolverCost& solver) { return costs.mixed(solver).seconds; });
+LongSteps long_steps(const HeatModel& model, LinearSolver asked, const RunCosts& costs) {
+  auto scheme = make_implicit_scheme(model, asked, [&](const SolverCost& solver) { return costs.mixed(solver).seconds; });
   const ChosenSolver solver = scheme->solver();
   const StepMix mix = costs.mixed(solver.cost);
   const std::string of_mix =
@@ -94,9 +104,28 @@ ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) 
                             : "implicit steps";
   const std::string figures = fmt::format("{:.0f} products with K, about {:.2g} s, or {}, about {:.2g} s; {}", costs.products(),
                                           costs.stabilised(), of_mix, mix.seconds, solver.why);
-  if (mix.seconds > costs.stabilised()) return {make_stabilised_scheme(model, std::move(stable)), figures};
-  if (mix.longest_short == 0) return {std::move(scheme), figures};
-  return {make_mixed_scheme(make_stabilised_scheme(model, std::move(stable)), std::move(scheme), mix.longest_short), figures};
+  return {std::move(scheme), mix.seconds > costs.stabilised() ? infinity : mix.longest_short, figures};
+}
+
+ChosenScheme chosen_by_cost(const HeatModel& model, const TimeOptions& options) {
+  StableSteps stable(model);
+  const RunCosts costs(model, options, stable.at_start().step);
+  const Outlook before = outlook(model, options.solver, costs);
+  if (!before.may_pay) {
+    return {make_stabilised_scheme(model, std::move(stable)), [products = costs.products()] {
+              return fmt::format("some {:.0f} products with K, less than implicit steps take", products);
+            }};
+  }
+  if (before.surely_short > 0) {
+    const MadeMeanwhile<LongSteps> later([&model, asked = options.solver, costs] { return long_steps(model, asked, costs); });
+    return {make_mixed_scheme(make_stabilised_scheme(model, std::move(stable)), later, before.surely_short),
+            [later] { return later.get().why; }};
+  }
+  LongSteps now = long_steps(model, options.solver, costs);
+  const auto why = [text = now.why] { return text; };
+  if (now.longest_short == infinity) return {make_stabilised_scheme(model, std::move(stable)), why};
+  if (now.longest_short == 0) return {std::move(now.scheme), why};
+  return {make_mixed_scheme(make_stabilised_scheme(model, std::move(stable)), MadeMeanwhile(std::move(now))), why};
 }
 
 }  // namespace
@@ -107,9 +136,9 @@ ChosenScheme choose_scheme(const HeatModel& model, const TimeOptions& options) {
     case Integrator::implicit:
       return implicit(model, options, "asked for");
     case Integrator::stabilised_explicit:
-      return {make_stabilised_scheme(model), "asked for"};
+      return {make_stabilised_scheme(model), [] { return "asked for"; }};
     case Integrator::explicit_euler:
-      return {make_explicit_scheme(model), "asked for"};
+      return {make_explicit_scheme(model), [] { return "asked for"; }};
     case Integrator::automatic:
       break;
   }

@@ -94,7 +94,7 @@ class EnthalpyScheme : public TimeScheme {
   }
 
   [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return sdirk2::drive_quadrature(); }
-  [[nodiscard]] double safety() const override { return 1 / least_ratio; }
+  [[nodiscard]] double safety() const override { return sdirk2::safety; }
   [[nodiscard]] ChosenSolver solver() const override { return solver_.chosen(); }
   [[nodiscard]] std::int64_t factorisations() const override { return solver_.factorisations(); }
   [[nodiscard]] std::string name() const override {

@@ -100,7 +100,7 @@ class HeatRun::Implementation {
   [[nodiscard]] WorkDone work_done() const {
     return {step_times(options_, varies_in_time(model_)), scheme_.scheme->cost_exponent()};
   }
-  [[nodiscard]] std::string solver() const { return fmt::format("{} ({})", scheme_.scheme->name(), scheme_.why); }
+  [[nodiscard]] std::string solver() const { return fmt::format("{} ({})", scheme_.scheme->name(), scheme_.why()); }
   [[nodiscard]] bool within_tolerance() const { return state_.time_error <= options_.tolerance; }
 
  private:
@@ -174,6 +174,7 @@ class HeatRun::Implementation {
         continue;
       }
       const double dt = grid.step();
+      const ThreadsInScope threads(std::max(1, threads_in_use() - scheme_.scheme->threads_beside(dt)));
       const std::optional<DriveDefect> missed = missed_in(grid, bends);
       const bool finest = grid.level() == StepGrid::max_level;
       const double may_add = allowed_in(missed, grid);

@@ -48,7 +48,7 @@ inline std::vector<Look> drive_quadrature() {
   return {{0, 1 - parabola1 - parabola2}, {gamma, parabola1}, {1, parabola2}};
 }
 
-inline constexpr double least_ratio = 0.73;  // of estimate to true error of a step
+inline constexpr double safety = 1 / 0.73;  // of estimates: their least ratio to the true error of a step
 
 // gamma h F at the step's start and at its two stages, of the free nodes [J].
 struct StageHeats {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/made_meanwhile.h"
 #include "thermal/drive_defect.h"
 #include "thermal/flow_network.h"
 #include "thermal/matrix_origin.h"
@@ -54,6 +55,9 @@ class TimeScheme {
   // How V sums what drives it over a step: what the estimate takes for the drive's integral (drive_defect.h).
   [[nodiscard]] virtual std::vector<Look> drive_quadrature(double length) const = 0;
 
+  // Threads that are at work for it while it takes a step of that length, beside those in use.
+  [[nodiscard]] virtual int threads_beside(double /*length*/) const { return 0; }
+
   // What a scheme keeps from one step to the next beside the state, and how it takes that up again.
   [[nodiscard]] virtual MatrixOrigin matrix_origin() const { return {}; }
   virtual void take_matrix(const MatrixOrigin& /*origin*/) {}
@@ -86,9 +90,16 @@ std::unique_ptr<TimeScheme> make_enthalpy_scheme(const HeatModel& model, LinearS
 std::unique_ptr<TimeScheme> make_explicit_scheme(const HeatModel& model);
 // In fourth order conditions must stay and all must be linear. `stable`: those of the model, if they are known already.
 std::unique_ptr<TimeScheme> make_stabilised_scheme(const HeatModel& model, std::optional<StableSteps> stable = {});
-// Steps of up to `longest_short` [s] by the one, longer ones by the other; both are of the same model.
-std::unique_ptr<TimeScheme> make_mixed_scheme(std::unique_ptr<TimeScheme> of_short, std::unique_ptr<TimeScheme> of_long,
-                                              double longest_short);
+
+// An implicit scheme for what is longer than other steps of the same model.
+struct LongSteps {
+  std::unique_ptr<TimeScheme> scheme;
+  double longest_short = 0;  // of the others; infinite if there are no long ones [s]
+  std::string why = {};      // so long, in words
+};
+// Does not wait for the long steps before one is longer than `surely_short` [s].
+std::unique_ptr<TimeScheme> make_mixed_scheme(std::unique_ptr<TimeScheme> of_short, MadeMeanwhile<LongSteps> of_long,
+                                              double surely_short = 0);
 
 // The nodes whose temperatures decide what passes to and from the outside: fixed ones, those joined to them (and in fourth
 // order those joined to these), and those that exchange heat with surroundings. Ascending.

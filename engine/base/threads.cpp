@@ -19,12 +19,8 @@ int threads_in_use() {
   return omp_get_max_threads();
 }
 
-ThreadsForRows::ThreadsForRows(std::size_t rows) : before_(threads_in_use()) {
-  if (rows < static_cast<std::size_t>(rows_worth_sharing)) use_threads(1);
-}
-
-ThreadsForRows::~ThreadsForRows() {
-  use_threads(before_);
+int threads_for(std::size_t rows) {
+  return rows < static_cast<std::size_t>(rows_worth_sharing) ? 1 : threads_in_use();
 }
 
 }  // namespace scree

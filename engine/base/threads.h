@@ -17,14 +17,17 @@ void use_threads(int count);
 // A loop over fewer rows than this is done before other threads have woken up.
 inline constexpr long rows_worth_sharing = 4096;
 
-// While it lives, one thread only if all the work is of fewer rows than that. The few loops that are shared for other reasons
-// than rows would not make up for threads that wait between them, which takes a processor as long as work does.
-class ThreadsForRows {
+// How many threads loops over so many rows are worth: one if they are fewer than that. The few loops that are shared for other
+// reasons than rows would not make up for threads that wait between them, which takes a processor as long as work does.
+[[nodiscard]] int threads_for(std::size_t rows);
+
+// So many threads while it lives.
+class ThreadsInScope {
  public:
-  explicit ThreadsForRows(std::size_t rows);
-  ~ThreadsForRows();
-  ThreadsForRows(const ThreadsForRows&) = delete;
-  ThreadsForRows& operator=(const ThreadsForRows&) = delete;
+  explicit ThreadsInScope(int count) : before_(threads_in_use()) { use_threads(count); }
+  ~ThreadsInScope() { use_threads(before_); }
+  ThreadsInScope(const ThreadsInScope&) = delete;
+  ThreadsInScope& operator=(const ThreadsInScope&) = delete;
 
  private:
   int before_;

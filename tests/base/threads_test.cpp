@@ -5,16 +5,16 @@
 namespace scree {
 namespace {
 
-TEST(ThreadsForRows, AreOneWhileThereAreTooFewRowsToShareAndAsManyAsBeforeElse) {
+TEST(ThreadsInScope, AreOneWhileThereAreTooFewRowsToShareAndAsManyAsBeforeElse) {
   const int before = threads_in_use();
   use_threads(3);
   {
-    const ThreadsForRows few(rows_worth_sharing - 1);
+    const ThreadsInScope few(threads_for(rows_worth_sharing - 1));
     EXPECT_EQ(threads_in_use(), 1);
   }
   EXPECT_EQ(threads_in_use(), 3);
   {
-    const ThreadsForRows many(rows_worth_sharing);
+    const ThreadsInScope many(threads_for(rows_worth_sharing));
     EXPECT_EQ(threads_in_use(), 3);
   }
   use_threads(before);

@@ -241,6 +241,24 @@ TEST(HeatRun, ARunOfMixedStepsGoesOnFromAFileToTheBitBeforeTheChangeAndAfterIt) 
   EXPECT_GT(states.back().factorisations, 0);
 }
 
+TEST(HeatRun, MixedStepsAreTheSameWhetherLongOnesAreMadeReadyBesideShortOnesOrNot) {
+  const int before = threads_in_use();
+  const HeatModel model = rubble_model<3>(1e6, both);
+  const auto run = [&](int threads) {
+    use_threads(threads);
+    HeatRun heat(model, times(1, 0.001, 0.05));
+    heat.advance_to(1);
+    return std::pair(heat.state(), heat.solver());
+  };
+  const auto alone = run(1), beside = run(2);
+  use_threads(before);
+  EXPECT_GT(alone.first.factorisations, 0);
+  EXPECT_EQ(alone.second, beside.second);
+  EXPECT_EQ(alone.first.factorisations, beside.first.factorisations);
+  EXPECT_EQ(alone.first.steps, beside.first.steps);
+  EXPECT_EQ(alone.first.temperature, beside.first.temperature);
+}
+
 TEST(HeatRun, StepsDoNotDependOnHowOftenTheRunIsStopped) {
   const HeatModel model = rubble_model<2>(10, hot_left);
   HeatRun often(model, times(50, 10, 0.1));

@@ -110,6 +110,10 @@ TEST(TimeScheme, EstimateTimesSafetyBoundsTheErrorForAnyStep) {
   }
 }
 
+std::unique_ptr<TimeScheme> mixed_scheme(const HeatModel& model, double longest_short) {
+  return make_mixed_scheme(make_stabilised_scheme(model), MadeMeanwhile(LongSteps{make_implicit_scheme(model), longest_short}));
+}
+
 // From far below the fastest time scale to the slowest, each length three times; the change from one scheme to the other
 // anywhere among them.
 TEST(TimeScheme, MixedStepsKeepTheEstimateAboveTheErrorWhereverTheyChangeOver) {
@@ -118,7 +122,7 @@ TEST(TimeScheme, MixedStepsKeepTheEstimateAboveTheErrorWhereverTheyChangeOver) {
     const Modes exact(model);
     const double first = 0.1 / exact.fastest();
     for (double longest_short = 0.3 / exact.fastest(); longest_short < 1 / exact.slowest(); longest_short *= 5) {
-      const auto mixed = make_mixed_scheme(make_stabilised_scheme(model), make_implicit_scheme(model), longest_short);
+      const auto mixed = mixed_scheme(model, longest_short);
       Instant at{0, model.initial, Eigen::VectorXd::Zero(model.initial.size())};
       double error = 0, estimate = 0;
       for (double length = first; length < 1 / exact.slowest(); length *= 2) {
@@ -137,11 +141,40 @@ TEST(TimeScheme, MixedStepsKeepTheEstimateAboveTheErrorWhereverTheyChangeOver) {
 
 TEST(TimeScheme, MixedStepsAreThoseOfTheSchemeThatTheirLengthBelongsTo) {
   const HeatModel model = two_halves(1);
-  const auto mixed = make_mixed_scheme(make_stabilised_scheme(model), make_implicit_scheme(model), 2);
+  const auto mixed = mixed_scheme(model, 2);
   const Instant start{0, model.initial, Eigen::VectorXd::Zero(model.initial.size())};
   EXPECT_EQ(mixed->step(start, 2).change, make_stabilised_scheme(model)->step(start, 2).change);
   EXPECT_EQ(mixed->step(start, 2.1).change, make_implicit_scheme(model)->step(start, 2.1).change);
   EXPECT_EQ(mixed->step(start, 1).change, make_stabilised_scheme(model)->step(start, 1).change);
+}
+
+// Whatever threads there are, long steps are made ready when or before one is asked for, and change no short one.
+TEST(TimeScheme, MixedStepsDoNotWaitForTheLongOnesBeforeTheyNeedThem) {
+  const int before = threads_in_use();
+  const HeatModel model = two_halves(1);
+  const Instant start{0, model.initial, Eigen::VectorXd::Zero(model.initial.size())};
+  for (const int threads : {1, 2}) {
+    use_threads(threads);
+    std::promise<void> asked;
+    bool made = false;
+    const MadeMeanwhile<LongSteps> later([&, go_on = asked.get_future().share()] {
+      go_on.wait();
+      made = true;
+      return LongSteps{make_implicit_scheme(model), 2};
+    });
+    const auto mixed = make_mixed_scheme(make_stabilised_scheme(model), later, 0.5);
+    EXPECT_EQ(later.under_way(), threads > 1);
+    EXPECT_EQ(mixed->step(start, 0.5).change, make_stabilised_scheme(model)->step(start, 0.5).change);
+    EXPECT_EQ(mixed->factorisations(), 0);
+    EXPECT_EQ(mixed->safety(), std::max(make_stabilised_scheme(model)->safety(), make_implicit_scheme(model)->safety()));
+    EXPECT_FALSE(made);
+    asked.set_value();
+    EXPECT_EQ(mixed->step(start, 1).change, make_stabilised_scheme(model)->step(start, 1).change);
+    EXPECT_TRUE(made);
+    EXPECT_EQ(mixed->step(start, 2.1).change, make_implicit_scheme(model)->step(start, 2.1).change);
+    EXPECT_GT(mixed->factorisations(), 0);
+  }
+  use_threads(before);
 }
 
 TEST(TimeScheme, AStepFarAboveAllTimeScalesEndsAtTheMeanWithoutRinging) {

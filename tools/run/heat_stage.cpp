@@ -163,7 +163,7 @@ void find_errors(RunContext& context, HeatOutcome<dim>& outcome) {
 template <int dim>
 HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) {
   const Scene& scene = context.scene;
-  const ThreadsForRows threads(packing.mesh.nodes.size());
+  const ThreadsInScope threads(threads_for(packing.mesh.nodes.size()));
   HeatOutcome<dim> outcome;
   outcome.pile = find_pile(context, packing);
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
