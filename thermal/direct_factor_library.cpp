@@ -64,6 +64,9 @@ class Cholmod : public CholeskyAnalysis {
  public:
   Cholmod() {
     use_one_blas_thread();
+    // Nested dissection of CHOLMOD's own, by METIS' bisections. METIS' takes SIGTERM for itself meanwhile, and jumps out of its
+    // work with it, whichever thread it comes to.
+    cholesky_.cholmod().default_nesdis = 1;
     cholesky_.cholmod().print = 0;  // failures are ours to report
   }
   FactorSize analyse(const Matrix& matrix) override {

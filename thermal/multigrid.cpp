@@ -155,12 +155,14 @@ void Multigrid::Hypre::make_iteration() {
   check();
 }
 
-Multigrid::Multigrid(const SparseMatrix& conductance, const FreeNodes& free)
-    : hypre_(std::make_unique<Hypre>(conductance, free)) {}
+Multigrid::Multigrid(const SparseMatrix& conductance, const FreeNodes& free) : conductance_(conductance), free_(free) {
+  static_cast<void>(hypre::find("HYPRE_Init"));
+}
 
 Multigrid::~Multigrid() = default;
 
 void Multigrid::prepare(const Eigen::VectorXd& diagonal, double scale) {
+  if (!hypre_) hypre_ = std::make_unique<Hypre>(conductance_, free_);
   hypre_->enter(diagonal, scale);
   hypre_->make_preconditioner();
   hypre_->make_iteration();

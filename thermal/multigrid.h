@@ -11,10 +11,12 @@ namespace scree::thermal {
 
 class Multigrid {
  public:
-  Multigrid(const SparseMatrix& conductance, const FreeNodes& free);  // refers to both
+  // Refers to both. Throws RunError if there is no hypre.
+  Multigrid(const SparseMatrix& conductance, const FreeNodes& free);
   ~Multigrid();
 
-  // scale K + diag(diagonal) of the free nodes, positive definite. Throws RunError if hypre fails.
+  // scale K + diag(diagonal) of the free nodes, positive definite. Throws RunError if hypre fails. The first of them starts
+  // it, and with it MPI, which stays with the thread that does so.
   void prepare(const Eigen::VectorXd& diagonal, double scale);
 
   // Until the residual is `accuracy` of the right side, both in the energy norm of the preconditioner. Needs prepare().
@@ -24,6 +26,8 @@ class Multigrid {
 
  private:
   struct Hypre;  // keeps the library out of this header
+  const SparseMatrix& conductance_;
+  const FreeNodes& free_;
   std::unique_ptr<Hypre> hypre_;
   std::int64_t iterations_ = 0;
 };

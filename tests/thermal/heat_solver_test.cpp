@@ -1,6 +1,12 @@
 // What was factorised before, and the number of threads, change no bit and no count.
 #include "thermal/heat_solver.h"
 
+#include <chrono>
+#include <csignal>
+#include <future>
+
+#include <signal.h>
+
 #include <gtest/gtest.h>
 
 #include "engine/base/threads.h"
@@ -61,6 +67,29 @@ TEST_F(HeatSolvers, GiveTheSameBitsOnHoweverManyThreadsAndWhateverWasSolvedBefor
 
 TEST_F(HeatSolvers, FactoriseNothingTwiceInARow) {
   EXPECT_EQ(answers({1, 2, 2, 2, 1, 1}, 1).factorisations, 3);
+}
+
+// METIS' own nested dissection would have a handler of its own meanwhile, and end the process with a signal that comes to
+// another thread.
+TEST(SignalWhileOrdering, GoesToWhomItWentBefore) {
+  using Handler = void (*)(int);
+  const auto mesh = test::slab_mesh<3>({test::bar<3>(1, 30, 30, 1)});
+  const HeatModel model = make_heat_model<3>(mesh, test::rock_only(), {}, test::options_for(mesh, 300));
+  const SparseMatrix lower = FreeNodes(model).lower_block(model.conductance);
+  const Handler ours = [](int) {};
+  const Handler before = std::signal(SIGTERM, ours);
+  const auto factor = make_cholesky();
+  auto size = std::async(std::launch::async, [&] { return factor->analyse(lower); });
+  int looks = 0, theirs = 0;
+  for (; size.wait_for(std::chrono::microseconds(100)) == std::future_status::timeout; ++looks) {
+    struct sigaction now = {};
+    ::sigaction(SIGTERM, nullptr, &now);
+    if (now.sa_handler != ours) ++theirs;
+  }
+  std::signal(SIGTERM, before);
+  EXPECT_TRUE(size.get().possible);
+  EXPECT_GT(looks, 100);
+  EXPECT_EQ(theirs, 0);
 }
 
 }  // namespace
