@@ -59,8 +59,7 @@ struct LumpingEstimate::Inside {
 
 LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
-  conductance_ = free_.block(model.conductance);
-  if (!is_symmetric(model)) unit_conductance_ = free_.block(model.varying->unit_conductance);
+  make_matrix();
   for (std::size_t i = 0; i < blocks_.size(); ++i) add_links(static_cast<int>(i));
   for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(static_cast<int>(e));
 }
@@ -107,8 +106,7 @@ LumpingError LumpingEstimate::start() const {
   return error;
 }
 
-void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length,
-                              LumpingError& error) const {
+void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) {
   const std::vector<Flow> through = flows(temperature, drive);
   const std::vector<Inside> within = insides(through, drive);
   double inside = 0;
@@ -179,19 +177,55 @@ Eigen::VectorXd LumpingEstimate::missing(const std::vector<Flow>& flows, const s
   return heat;
 }
 
-void LumpingEstimate::carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) const {
+// K and U have an entry each wherever one of them has one.
+void LumpingEstimate::make_matrix() {
+  SparseMatrix conductance = free_.block(model_.conductance);
+  if (!is_symmetric(model_)) {
+    const SparseMatrix unit = free_.block(model_.varying->unit_conductance);
+    unit_conductance_ = 0 * conductance + unit;
+    conductance += 0 * unit;
+  }
+  matrix_ = std::move(conductance);
+  conductance_ = Eigen::Map<const Eigen::VectorXd>(matrix_.valuePtr(), matrix_.nonZeros());
+  for (Eigen::Index column = 0; column < matrix_.cols(); ++column) {
+    const int* const begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+    const int* const end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+    diagonal_.push_back(std::lower_bound(begin, end, column) - matrix_.innerIndexPtr());
+  }
+}
+
+// To K + U diag(k) + diag(more).
+void LumpingEstimate::set_matrix(const Eigen::VectorXd& conductivity_of_all, const Eigen::VectorXd& more) {
+  double* const values = matrix_.valuePtr();
+  if (unit_conductance_.nonZeros() > 0) {
+    const Eigen::VectorXd conductivity = free_.gather(conductivity_of_all);
+    for (Eigen::Index column = 0; column < matrix_.cols(); ++column) {
+      for (int i = matrix_.outerIndexPtr()[column]; i < matrix_.outerIndexPtr()[column + 1]; ++i)
+        values[i] = conductance_[i] + unit_conductance_.valuePtr()[i] * conductivity[column];
+    }
+    for (std::size_t i = 0; i < diagonal_.size(); ++i) values[diagonal_[i]] += more[static_cast<Eigen::Index>(i)];
+  } else {
+    for (std::size_t i = 0; i < diagonal_.size(); ++i)
+      values[diagonal_[i]] = conductance_[diagonal_[i]] + more[static_cast<Eigen::Index>(i)];
+  }
+}
+
+void LumpingEstimate::carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) {
   if (free_.size() == 0) return;
   const Eigen::VectorXd stored = free_.gather(at.capacity) / length;  // 0 in the steady state
-  SparseMatrix matrix = conductance_;
-  if (unit_conductance_.nonZeros() > 0) matrix += unit_conductance_ * free_.gather(at.conductivity).col(0).asDiagonal();
-  matrix.diagonal() += stored + free_.gather(at.loss);
-  Eigen::BiCGSTAB<SparseMatrix> solver(matrix);
-  solver.setTolerance(accuracy);
+  set_matrix(at.conductivity, stored + free_.gather(at.loss));
   const Eigen::VectorXd before = free_.gather(carried);
-  const Eigen::VectorXd after = solver.solveWithGuess(stored.cwiseProduct(before) + free_.gather(heat), before);
-  if (solver.info() != Eigen::Success || !after.allFinite())
-    throw RunError("The error that lumped blocks make could not be estimated: its equations were not solved. Mesh all blocks");
-  carried = free_.scatter(after);
+  const auto solved = [&](auto&& solver) -> Eigen::VectorXd {
+    solver.setTolerance(accuracy);
+    Eigen::VectorXd after = solver.solveWithGuess(stored.cwiseProduct(before) + free_.gather(heat), before);
+    if (solver.info() != Eigen::Success || !after.allFinite())
+      throw RunError(
+          "The error that lumped blocks make could not be estimated: its equations were not solved. Mesh all blocks");
+    return after;
+  };
+  const bool symmetric = unit_conductance_.nonZeros() == 0;
+  carried = free_.scatter(symmetric ? solved(Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper>(matrix_))
+                                    : solved(Eigen::BiCGSTAB<SparseMatrix>(matrix_)));
 }
 
 }  // namespace scree::thermal

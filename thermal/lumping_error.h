@@ -33,7 +33,7 @@ class LumpingEstimate {
   [[nodiscard]] LumpingError start() const;
 
   // After a step of `length` [s] to these temperatures; an infinite one leads to the steady state.
-  void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) const;
+  void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error);
 
  private:
   // Where heat passes between a lumped block's row and another one: an entry of K off its diagonal.
@@ -63,7 +63,9 @@ class LumpingEstimate {
   void for_each_patch(const std::vector<Flow>& flows, const Visit& visit) const;
   [[nodiscard]] std::vector<Inside> insides(const std::vector<Flow>& flows, const Drive& drive) const;
   [[nodiscard]] Eigen::VectorXd missing(const std::vector<Flow>& flows, const std::vector<Inside>& insides) const;
-  void carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried) const;
+  void make_matrix();
+  void set_matrix(const Eigen::VectorXd& conductivity_of_all, const Eigen::VectorXd& more);
+  void carry(const Eigen::VectorXd& heat, const Linearised& at, double length, Eigen::VectorXd& carried);
 
   const HeatModel& model_;
   const std::vector<LumpedBlock>& blocks_;
@@ -73,8 +75,10 @@ class LumpingEstimate {
   std::vector<Link> links_;
   std::vector<Place> places_;
   std::vector<Patch> patches_;
-  SparseMatrix conductance_;       // between free rows [W/K]
-  SparseMatrix unit_conductance_;  // of U, if there is one
+  SparseMatrix matrix_;                 // C/h + J of the last step, between free rows [W/K]
+  std::vector<Eigen::Index> diagonal_;  // places of its diagonal among its values
+  Eigen::VectorXd conductance_;         // its values, of K alone
+  SparseMatrix unit_conductance_;       // of U, if there is one
 };
 
 }  // namespace scree::thermal

@@ -59,7 +59,7 @@ class SteadySolver {
     state.reached.include(state.temperature);
     state.ledger = flows(state.temperature);
     if (model_.lumped) {
-      const LumpingEstimate estimate(model_);
+      LumpingEstimate estimate(model_);
       state.lumping = estimate.start();
       state.lumping.largest = 0;  // the start is forgotten
       estimate.advance(state.temperature, drive_, std::numeric_limits<double>::infinity(), state.lumping);
