@@ -192,7 +192,7 @@ class Chooser {
         block.biot += patch.conductance * bulk;
         constricted = std::max(constricted, patch.conductance * constriction);
       }
-      keep(first->patch, largest, block);
+      block.patches.push_back({first->patch, largest});
       first = last;
     }
     block.biot += constricted;
@@ -243,14 +243,6 @@ class Chooser {
         for (int i = 0; i <= count; ++i) least = std::min(least, value_or_infinity(k, low + i * (high - low) / looks));
       }
       least_.push_back(least);
-    }
-  }
-
-  void keep(std::size_t patch, const PatchResistance& resists, LumpedBlock& block) const {
-    if (patch < mesh_.blocks.size() + model_.exchanges.size()) {
-      block.patches.push_back({patch, resists});
-    } else {
-      block.load = largest_of(block.load, resists);
     }
   }
 

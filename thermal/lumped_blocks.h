@@ -22,9 +22,9 @@ inline PatchResistance largest_of(const PatchResistance& one, const PatchResista
   return {std::max(one.bulk, other.bulk), std::max(one.constriction, other.constriction)};
 }
 
-// All contacts with one other block, or all that one exchange reaches.
+// All contacts with one other block, all that one exchange reaches, or where one load sets heat free.
 struct LumpedPatch {
-  std::size_t number;  // of the other block; or of the exchange, counted on from the number of blocks
+  std::size_t number;  // of the other block; or of the exchange, or the load, counted on one from the other
   PatchResistance resists;
 };
 
@@ -33,7 +33,6 @@ struct LumpedBlock {
   NodeId row;                        // of the heat model
   double biot = 0;                   // conductances through its surface times what its inside resists (choose_lumped.h) [-]
   std::vector<LumpedPatch> patches;  // ascending
-  PatchResistance load;              // where heat is applied, the largest of these patches
   double start_spread = 0;           // largest distance of a temperature at the start from the block's [K]
 };
 

@@ -61,7 +61,10 @@ LumpingEstimate::LumpingEstimate(const HeatModel& model)
     : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
   make_matrix();
   for (std::size_t i = 0; i < blocks_.size(); ++i) add_links(static_cast<int>(i));
-  for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(static_cast<int>(e));
+  std::size_t first = model.lumped->of_blocks();
+  for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(model.exchanges[e].on, e, first, places_, patches_);
+  first += model.exchanges.size();
+  for (std::size_t l = 0; l < model.loads.size(); ++l) add_places(model.loads[l].on, l, first, loaded_places_, loaded_patches_);
 }
 
 // The rows of a neighbour need not follow each other.
@@ -83,18 +86,18 @@ void LumpingEstimate::add_links(int block) {
   }
 }
 
-// An exchange that differs from place to place has several of them in a row (share_rows.h), which follow each other.
-void LumpingEstimate::add_places(int exchange) {
-  const std::vector<NodeId>& rows = model_.exchanges[static_cast<std::size_t>(exchange)].on.nodes;
-  const std::size_t number = model_.lumped->of_blocks() + static_cast<std::size_t>(exchange);
+// Of what differs from place to place a row has several in a row (share_rows.h), which follow each other.
+void LumpingEstimate::add_places(const NodeShares& on, std::size_t number, std::size_t first, std::vector<Place>& places,
+                                 std::vector<Patch>& patches) const {
+  const std::vector<NodeId>& rows = on.nodes;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int block = model_.lumped->position(model_.blocks[rows[i]]);
     if (block < 0) continue;
-    places_.push_back({rows[i].value(), exchange, static_cast<Eigen::Index>(i)});
+    places.push_back({rows[i].value(), static_cast<int>(number), static_cast<Eigen::Index>(i)});
     if (i > 0 && rows[i] == rows[i - 1]) {
-      ++patches_.back().size;
+      ++patches.back().size;
     } else {
-      patches_.push_back({block, 1, resistance_of(blocks_[static_cast<std::size_t>(block)], number)});
+      patches.push_back({block, 1, resistance_of(blocks_[static_cast<std::size_t>(block)], first + number)});
     }
   }
 }
@@ -108,7 +111,7 @@ LumpingError LumpingEstimate::start() const {
 
 void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) {
   const std::vector<Flow> through = flows(temperature, drive);
-  const std::vector<Inside> within = insides(through, drive);
+  const std::vector<Inside> within = insides(through, drive.time);
   double inside = 0;
   for (const Inside& one : within) inside = std::max(inside, one.largest());
   carry(missing(through, within), balance_.linearised(temperature, drive), length, error.carried);
@@ -121,8 +124,8 @@ std::vector<LumpingEstimate::Flow> LumpingEstimate::flows(const Eigen::VectorXd&
   for (const Link& link : links_)
     flows.push_back({link.conductance * (temperature[link.other] - temperature[link.row]), link.conductance});
   for (const Place& place : places_) {
-    const Exchange::Law law = model_.exchanges[static_cast<std::size_t>(place.exchange)].law;
-    const ExchangeRates& rates = drive.exchanges[static_cast<std::size_t>(place.exchange)];
+    const Exchange::Law law = model_.exchanges[static_cast<std::size_t>(place.number)].law;
+    const ExchangeRates& rates = drive.exchanges[static_cast<std::size_t>(place.number)];
     const double t = temperature[place.row];
     flows.push_back({exchanged_heat(law, rates, place.at, t), exchange_slope(law, rates, place.at, t)});
   }
@@ -139,18 +142,27 @@ void LumpingEstimate::for_each_patch(const std::vector<Flow>& flows, const Visit
   }
 }
 
-std::vector<LumpingEstimate::Inside> LumpingEstimate::insides(const std::vector<Flow>& flows, const Drive& drive) const {
+std::vector<LumpingEstimate::Inside> LumpingEstimate::insides(const std::vector<Flow>& flows, double time) const {
   std::vector<Inside> insides(blocks_.size());
   for_each_patch(flows, [&](const Patch& patch, std::span<const Flow> through) {
     BothWays heat;
     for (const Flow& flow : through) heat.add(flow.heat);
     insides[static_cast<std::size_t>(patch.block)].add(heat, patch.resists);
   });
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    const double net = drive.load[blocks_[i].row.value()], size = drive.load_sizes[blocks_[i].row.value()];
-    insides[i].add({0.5 * (size + net), 0.5 * (size - net)}, blocks_[i].load);
-  }
+  apply(time, insides);
   return insides;
+}
+
+void LumpingEstimate::apply(double time, std::vector<Inside>& insides) const {
+  auto place = loaded_places_.begin();
+  for (const Patch& patch : loaded_patches_) {
+    BothWays heat;
+    for (int i = 0; i < patch.size; ++i, ++place) {
+      const Load& load = model_.loads[static_cast<std::size_t>(place->number)];
+      heat.add(load.on.shares[static_cast<std::size_t>(place->at)] * load.density(load.on.places.col(place->at), time));
+    }
+    insides[static_cast<std::size_t>(patch.block)].add(heat, patch.resists);
+  }
 }
 
 // Into each row [W].

@@ -3,9 +3,9 @@
 // Heat flows q_p [W] through the patches of a lumped block make its inside differ from its one temperature by at most
 //   theta = sum R |q_p| + max c |q_p|
 // wherever one looks, R the bulk resistance and c the constriction of a patch (inner_resistance.h): all contacts with one other
-// block, all that one exchange with surroundings reaches, or what is applied, of which the largest count. What flows into the
-// block at some places of a patch and out of it at others counts both ways. It also takes from the drop over the joint at each
-// place, so that this carries less,
+// block, all that one exchange with surroundings reaches, or where one load sets heat free. What flows into the block at some
+// places of a patch and out of it at others counts both ways. It also takes from the drop over the joint at each place, so that
+// this carries less,
 //   g s,   s = (sum of R |q| over all that flows the same way as there) + c |q_p|,
 // and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
 //   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
@@ -42,11 +42,11 @@ class LumpingEstimate {
     int other;
     double conductance;  // [W/K]
   };
-  // Where it passes between that row and its surroundings.
+  // Where it passes between that row and its surroundings, or is set free.
   struct Place {
     int row;
-    int exchange;
-    Eigen::Index at;  // among what the exchange reaches
+    int number;       // of the exchange, or of the load
+    Eigen::Index at;  // among what that reaches
   };
   struct Patch {
     int block;  // its position among the lumped ones
@@ -56,12 +56,15 @@ class LumpingEstimate {
   struct Flow;
   struct Inside;
   void add_links(int block);
-  void add_places(int exchange);
+  // Where the exchange or load `number` reaches lumped blocks. Patches of its kind are numbered from `first` on.
+  void add_places(const NodeShares& on, std::size_t number, std::size_t first, std::vector<Place>& places,
+                  std::vector<Patch>& patches) const;
   [[nodiscard]] std::vector<Flow> flows(const Eigen::VectorXd& temperature, const Drive& drive) const;
   // Every patch with what flows through its links or places, each by visit(const Patch&, std::span<const Flow>).
   template <class Visit>
   void for_each_patch(const std::vector<Flow>& flows, const Visit& visit) const;
-  [[nodiscard]] std::vector<Inside> insides(const std::vector<Flow>& flows, const Drive& drive) const;
+  [[nodiscard]] std::vector<Inside> insides(const std::vector<Flow>& flows, double time) const;
+  void apply(double time, std::vector<Inside>& insides) const;
   [[nodiscard]] Eigen::VectorXd missing(const std::vector<Flow>& flows, const std::vector<Inside>& insides) const;
   void make_matrix();
   void set_matrix(const Eigen::VectorXd& conductivity_of_all, const Eigen::VectorXd& more);
@@ -75,6 +78,9 @@ class LumpingEstimate {
   std::vector<Link> links_;
   std::vector<Place> places_;
   std::vector<Patch> patches_;
+  // Of all loads.
+  std::vector<Place> loaded_places_;
+  std::vector<Patch> loaded_patches_;
   SparseMatrix matrix_;                 // C/h + J of the last step, between free rows [W/K]
   std::vector<Eigen::Index> diagonal_;  // places of its diagonal among its values
   Eigen::VectorXd conductance_;         // its values, of K alone

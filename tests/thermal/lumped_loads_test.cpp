@@ -105,5 +105,20 @@ TEST(LumpedLoads, HaveAnErrorThatIsKnownWhereASourceIsStrongInASmallPart) {
   }
 }
 
+// A spark beside a source that heats all of the cube.
+TEST(LumpedLoads, HaveTheSameErrorWhereOneOfThemIsSmallAndSetsHardlyAnythingFree) {
+  const auto stated = [](bool spark) {
+    auto row = row_of_cubes<3>(1, 8);
+    set_free("1e5*x/0.1")(row.options);
+    if (spark)
+      through_surface({Eigen::Vector3d(-1e-9, -1e-9, -1e-9), Eigen::Vector3d(1e-9, 0.0126, 0.0126)},
+                      HeatFlow{1e-3})(row.options);
+    row.options.blocks.model = BlockModel::lumped;
+    return test::heated(row.model(), 20000, 0.5).lumping.largest;
+  };
+  EXPECT_GT(stated(false), 1);
+  EXPECT_NEAR(stated(true) / stated(false), 1, 0.001);
+}
+
 }  // namespace
 }  // namespace scree::thermal
