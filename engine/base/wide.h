@@ -3,7 +3,8 @@
 
 #include <type_traits>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 // For a function that is compiled twice. What it calls has to be inlined to gain by it.
 #define SCREE_WIDE __attribute__((target_clones("avx2", "default")))
 #define SCREE_HAS_AVX2
