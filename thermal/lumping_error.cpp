@@ -65,6 +65,8 @@ LumpingEstimate::LumpingEstimate(const HeatModel& model)
   for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(model.exchanges[e].on, e, first, places_, patches_);
   first += model.exchanges.size();
   for (std::size_t l = 0; l < model.loads.size(); ++l) add_places(model.loads[l].on, l, first, loaded_places_, loaded_patches_);
+  for (const Place& place : loaded_places_)
+    steady_heat_.push_back(varies_in_time(model.loads[static_cast<std::size_t>(place.number)]) ? 0 : applied(place, 0));
 }
 
 // The rows of a neighbour need not follow each other.
@@ -153,13 +155,19 @@ std::vector<LumpingEstimate::Inside> LumpingEstimate::insides(const std::vector<
   return insides;
 }
 
+double LumpingEstimate::applied(const Place& place, double time) const {
+  const Load& load = model_.loads[static_cast<std::size_t>(place.number)];
+  return load.on.shares[static_cast<std::size_t>(place.at)] * load.density(load.on.places.col(place.at), time);
+}
+
 void LumpingEstimate::apply(double time, std::vector<Inside>& insides) const {
-  auto place = loaded_places_.begin();
+  std::size_t i = 0;
   for (const Patch& patch : loaded_patches_) {
     BothWays heat;
-    for (int i = 0; i < patch.size; ++i, ++place) {
-      const Load& load = model_.loads[static_cast<std::size_t>(place->number)];
-      heat.add(load.on.shares[static_cast<std::size_t>(place->at)] * load.density(load.on.places.col(place->at), time));
+    for (const std::size_t end = i + static_cast<std::size_t>(patch.size); i < end; ++i) {
+      const Place& place = loaded_places_[i];
+      const bool varies = varies_in_time(model_.loads[static_cast<std::size_t>(place.number)]);
+      heat.add(varies ? applied(place, time) : steady_heat_[i]);
     }
     insides[static_cast<std::size_t>(patch.block)].add(heat, patch.resists);
   }

@@ -64,6 +64,7 @@ class LumpingEstimate {
   template <class Visit>
   void for_each_patch(const std::vector<Flow>& flows, const Visit& visit) const;
   [[nodiscard]] std::vector<Inside> insides(const std::vector<Flow>& flows, double time) const;
+  [[nodiscard]] double applied(const Place& place, double time) const;  // of a load [W]
   void apply(double time, std::vector<Inside>& insides) const;
   [[nodiscard]] Eigen::VectorXd missing(const std::vector<Flow>& flows, const std::vector<Inside>& insides) const;
   void make_matrix();
@@ -80,6 +81,7 @@ class LumpingEstimate {
   std::vector<Patch> patches_;
   // Of all loads.
   std::vector<Place> loaded_places_;
+  std::vector<double> steady_heat_;  // set free there by a load that does not change in time [W]
   std::vector<Patch> loaded_patches_;
   SparseMatrix matrix_;                 // C/h + J of the last step, between free rows [W/K]
   std::vector<Eigen::Index> diagonal_;  // places of its diagonal among its values
