@@ -112,6 +112,7 @@ std::optional<Repose> angle_of_repose(const Columns& columns) {
   if (n < 3) return std::nullopt;
   result.rings = static_cast<std::size_t>(n);
   result.angle = std::atan(-(n * rz - r * z) / (n * rr - r * r));
+  if (!(result.angle > 0)) return std::nullopt;
   return result;
 }
 

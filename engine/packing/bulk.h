@@ -31,7 +31,8 @@ struct Repose {
 };
 
 // The mean height over rings around the pile's middle, one block's size wide, and a straight line through those between a
-// fifth and four fifths of the highest. Nothing for a pile that walls hold, or with fewer than three rings there.
+// fifth and four fifths of the highest. Nothing for a pile that walls hold, with fewer than three rings there or
+// without a fall from its middle outwards.
 std::optional<Repose> angle_of_repose(const Columns& columns);
 
 }  // namespace scree::packing

@@ -55,17 +55,34 @@ double mean_size(const mesh::BlockMesh<3>& mesh, const std::vector<bool>& counts
   return blocks > 0 ? std::cbrt(volume / blocks) : 0;
 }
 
-Columns empty_grid(const Aabb<3>& pile, double size) {
+// From the grid's directions to the axes.
+Eigen::Matrix2d turn() {
+  static const Eigen::Matrix2d turn = Eigen::Rotation2Dd(std::atan((1 + std::sqrt(5)) / 2)).toRotationMatrix();
+  return turn;
+}
+
+Vector2d along_grid(const Vector2d& place) {
+  return turn().transpose() * place;
+}
+
+// How far a part reaches along the grid's directions [m].
+Aabb<2> reach_of(const Part& part) {
+  Aabb<2> reach;
+  for (const Eigen::Vector3d& vertex : part.placed.vertices) reach.extend(along_grid(vertex.head<2>()));
+  return reach;
+}
+
+Columns empty_grid(const Aabb<2>& pile, double size) {
   Columns columns;
   columns.size = size;
-  const double extent = std::max(pile.sizes().x(), pile.sizes().y()) + 4 * size;
+  const double extent = pile.sizes().maxCoeff() + 4 * size;
   columns.spacing = std::max(size / lines_per_block, extent / most_lines);
   columns.side = static_cast<int>(std::ceil(extent / columns.spacing));
-  const Vector2d low = pile.center().head<2>() - Vector2d::Constant(columns.spacing * columns.side / 2);
+  const Vector2d low = pile.center() - Vector2d::Constant(columns.spacing * (columns.side - 1) / 2);
   for (int j = 0; j < columns.side; ++j) {
     for (int i = 0; i < columns.side; ++i) {
       Column column;
-      column.place = low + columns.spacing * Vector2d(i + 0.5, j + 0.5);
+      column.place = turn() * (low + columns.spacing * Vector2d(i, j));
       columns.lines.push_back(std::move(column));
     }
   }
@@ -73,14 +90,15 @@ Columns empty_grid(const Aabb<3>& pile, double size) {
 }
 
 void enter(const Part& part, Columns& columns) {
-  const Vector2d origin = columns.lines.front().place;
-  const auto index = [&](double at, int axis) { return (at - origin[axis]) / columns.spacing; };
+  const Aabb<2> reach = reach_of(part);
+  const Vector2d from = along_grid(columns.lines.front().place);
+  const auto index = [&](double at, int axis) { return (at - from[axis]) / columns.spacing; };
   // Between the first column and one behind the last, or from one before the first: a part may be anywhere.
   const auto first = [&](int axis) {
-    return static_cast<int>(std::clamp<double>(std::ceil(index(part.box.min()[axis], axis)), 0, columns.side));
+    return static_cast<int>(std::clamp<double>(std::ceil(index(reach.min()[axis], axis)), 0, columns.side));
   };
   const auto last = [&](int axis) {
-    return static_cast<int>(std::clamp<double>(std::floor(index(part.box.max()[axis], axis)), -1, columns.side - 1));
+    return static_cast<int>(std::clamp<double>(std::floor(index(reach.max()[axis], axis)), -1, columns.side - 1));
   };
   for (int j = first(1); j <= last(1); ++j) {
     for (int i = first(0); i <= last(0); ++i) {
@@ -149,7 +167,7 @@ std::vector<std::size_t> Columns::near(std::size_t index, double distance) const
 
 std::optional<std::size_t> Columns::nearest(const Eigen::Vector2d& place) const {
   if (lines.empty()) return std::nullopt;
-  const Vector2d cell = (place - lines.front().place) / spacing + Vector2d::Constant(0.5);
+  const Vector2d cell = along_grid(place - lines.front().place) / spacing + Vector2d::Constant(0.5);
   if (cell.minCoeff() < 0 || cell.maxCoeff() >= side) return std::nullopt;
   return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(side) + static_cast<std::size_t>(cell.x());
 }
@@ -158,9 +176,12 @@ Columns cut_by_lines(const mesh::BlockMesh<3>& upright, const PieceSet& pieces, 
   std::vector<bool> counts(upright.blocks.size());
   for (const BlockId id : upright.blocks.ids()) counts[id.index()] = !upright.bodies[upright.blocks[id].body].fixed;
   for (const BlockId id : left_out) counts[id.index()] = false;
-  Aabb<3> pile;
+  Aabb<2> pile;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Part& part : pieces.parts) {
-    if (counts[part.block.index()]) pile.extend(part.box);
+    if (!counts[part.block.index()]) continue;
+    pile.extend(reach_of(part));
+    lowest = std::min(lowest, part.box.min().z());
   }
   if (pile.isEmpty()) return {};
   Columns columns = empty_grid(pile, mean_size(upright, counts));
@@ -171,7 +192,7 @@ Columns cut_by_lines(const mesh::BlockMesh<3>& upright, const PieceSet& pieces, 
     join(column.free);
     join(column.fixed);
   }
-  close_tops(columns, pile.min().z());
+  close_tops(columns, lowest);
   return columns;
 }
 

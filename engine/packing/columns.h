@@ -23,7 +23,8 @@ struct Column {
   double floor = 0;
 };
 
-// Lines on a square grid around the pile.
+// Lines on a square grid around the pile. It is turned against the axes by an angle whose tangent is the golden ratio, as walls
+// and the rows of blocks along them are not: else whole rows of lines may lie between rows of blocks.
 struct Columns {
   double size = 0;     // of a free block: cube root of the mean volume [m]
   double spacing = 0;  // of the lines: a quarter of that, or more if that made more than 1024 lines along a side [m]

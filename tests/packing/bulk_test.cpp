@@ -1,5 +1,6 @@
 #include "engine/packing/bulk.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -13,11 +14,12 @@ using Eigen::Vector3d;
 using rigid::testing::add_box;
 using rigid::testing::add_tetrahedron;
 
-// n^3 cubes with gaps between them on a floor, their spacing 1 m, in a box of walls if asked for.
-mesh::BlockMesh<3> lattice(int n, double edge, bool walls) {
+// Cubes with gaps between them on a floor, their spacing 1 m, n each way and `layers` of them, in a box of walls if asked for;
+// turned about the vertical.
+mesh::BlockMesh<3> lattice(int n, int layers, double edge, bool walls, double angle = 0.3) {
   mesh::BlockMesh<3> mesh;
   add_box(mesh, {4.0 * n, 4.0 * n, 1}, Vector3d(0, 0, -0.5), true);
-  for (int i = 0; i < n * n * n; ++i) {
+  for (int i = 0; i < n * n * layers; ++i) {
     const Vector3d at = Vector3d(i % n, i / n % n, i / n / n) + Vector3d(0.5 - n / 2.0, 0.5 - n / 2.0, 0.5);
     add_box(mesh, Vector3d::Constant(edge), at, false);
   }
@@ -27,10 +29,18 @@ mesh::BlockMesh<3> lattice(int n, double edge, bool walls) {
       add_box(mesh, {4.0 * n, 1, 3.0 * n}, Vector3d(0, side * (n + 1) / 2, 1.5 * n), true);
     }
   }
-  // Turned, so that the lines do not fall into step with the lattice.
-  const Eigen::AngleAxisd turn(0.3, Vector3d::UnitZ());
+  const Eigen::AngleAxisd turn(angle, Vector3d::UnitZ());
   for (Point<3>& node : mesh.nodes) node = turn * node;
   return mesh;
+}
+
+// What cubes of that edge, one in the middle of each metre, fill of the metres from `low` to `high`.
+double filled(double edge, double low, double high) {
+  const auto until = [edge](double x) {
+    const double begun = x - std::floor(x);
+    return std::floor(x) * edge + std::clamp(begun - (1 - edge) / 2, 0.0, edge);
+  };
+  return (until(high) - until(low)) / (high - low);
 }
 
 Columns cut(const mesh::BlockMesh<3>& mesh, const std::vector<BlockId>& left_out = {}) {
@@ -38,26 +48,32 @@ Columns cut(const mesh::BlockMesh<3>& mesh, const std::vector<BlockId>& left_out
   return cut_by_lines(mesh, pieces, left_out);
 }
 
-TEST(InnerPorosity, OfALatticeIsThatOfItsCellOverTheStatedHeights) {
-  for (const bool walls : {false, true}) {
-    const auto inner = inner_porosity(cut(lattice(10, 0.9, walls)));
-    ASSERT_TRUE(inner);
-    EXPECT_NEAR(inner->box.min().z(), 0.9, 1e-9);
-    EXPECT_NEAR(inner->box.max().z(), 9.95 - 0.9, 1e-9);
-    // Of these 8.15 m, eight cubes take 0.9 each and a ninth its uppermost 0.05; across, the cubes fill 0.81.
-    EXPECT_NEAR(inner->porosity, 1 - 0.81 * 7.25 / 8.15, 0.01) << walls;
-    const double across = 2 * 4.95 - 2 * 0.9;
-    EXPECT_NEAR(inner->volume / 8.15, across * across, 0.1 * across * across) << walls;
+TEST(InnerPorosity, OfALatticeIsThatOfItsCubesInTheStatedRegionAsItsRowsRunAlongTheAxesOrNot) {
+  constexpr int n = 24, layers = 6;
+  for (const double edge : {0.75, 0.8, 0.9, 0.97}) {
+    for (const double angle : {0.0, 0.3, M_PI / 4}) {
+      const bool walls = edge == 0.9;
+      const auto inner = inner_porosity(cut(lattice(n, layers, edge, walls, angle)));
+      ASSERT_TRUE(inner);
+      const double low = inner->box.min().z(), high = inner->box.max().z();
+      EXPECT_NEAR(low, edge, 1e-9);
+      EXPECT_NEAR(high, layers - (1 - edge) / 2 - edge, 1e-9);
+      const double inside = n - (1 - edge) / 2 - edge;  // across: one cube's edge from the outermost cubes' sides
+      const double across = filled(edge, n - inside, inside);
+      EXPECT_NEAR(inner->porosity, 1 - across * across * filled(edge, low, high), 0.01) << edge << " " << angle;
+      const double area = (2 * inside - n) * (2 * inside - n);
+      EXPECT_NEAR(inner->volume / (high - low), area, 0.05 * area) << edge << " " << angle;
+    }
   }
 }
 
 TEST(InnerPorosity, OfSolidCubesIsZeroAndOverlapsCountOnce) {
-  EXPECT_NEAR(inner_porosity(cut(lattice(6, 1, false)))->porosity, 0, 1e-12);
-  EXPECT_NEAR(inner_porosity(cut(lattice(6, 1.1, false)))->porosity, 0, 1e-12);
+  EXPECT_NEAR(inner_porosity(cut(lattice(6, 6, 1, false)))->porosity, 0, 1e-12);
+  EXPECT_NEAR(inner_porosity(cut(lattice(6, 6, 1.1, false)))->porosity, 0, 1e-12);
 }
 
 TEST(InnerPorosity, OfAFewBlocksIsNotKnown) {
-  EXPECT_FALSE(inner_porosity(cut(lattice(1, 1, false))));
+  EXPECT_FALSE(inner_porosity(cut(lattice(1, 1, 1, false))));
   EXPECT_FALSE(inner_porosity(Columns{}));
 }
 
@@ -76,7 +92,7 @@ TEST(Columns, ALineThroughATetrahedronIsInItAsLongAsItsThicknessThere) {
 }
 
 TEST(Columns, ABlockThatIsLeftOutIsNotThere) {
-  mesh::BlockMesh<3> mesh = lattice(1, 1, false);
+  mesh::BlockMesh<3> mesh = lattice(1, 1, 1, false);
   const BlockId lost = add_box(mesh, Vector3d(1, 1, 1), Vector3d(30, 0, -20), false);
   EXPECT_LT(cut(mesh, {lost}).side * cut(mesh, {lost}).spacing, 6);
 }
@@ -103,9 +119,19 @@ TEST(AngleOfRepose, OfAConeIsItsSlope) {
   }
 }
 
+TEST(AngleOfRepose, IsNotGivenForACrater) {
+  mesh::BlockMesh<3> mesh;
+  for (int i = 0; i < 21 * 21; ++i) {
+    const Vector3d at(i % 21 - 10, i / 21 - 10, 0.5);
+    for (int k = 0; k < 1 + static_cast<int>(at.head<2>().norm()) / 2; ++k)
+      add_box(mesh, Vector3d(1, 1, 1), at + Vector3d(0, 0, k), false);
+  }
+  EXPECT_FALSE(angle_of_repose(cut(mesh)));
+}
+
 TEST(AngleOfRepose, IsNotGivenForAPileThatWallsHoldNorForOneBlock) {
-  EXPECT_FALSE(angle_of_repose(cut(lattice(8, 0.9, true))));
-  EXPECT_FALSE(angle_of_repose(cut(lattice(1, 1, false))));
+  EXPECT_FALSE(angle_of_repose(cut(lattice(8, 8, 0.9, true))));
+  EXPECT_FALSE(angle_of_repose(cut(lattice(1, 1, 1, false))));
 }
 
 }  // namespace
