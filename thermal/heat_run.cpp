@@ -175,14 +175,14 @@ class HeatRun::Implementation {
       }
       const double dt = grid.step();
       const ThreadsInScope threads(std::max(1, threads_in_use() - scheme_.scheme->threads_beside(dt)));
-      const std::optional<DriveDefect> missed = missed_in(grid, bends);
+      const std::optional<DriveDefect> missed = missed_in(grid.time(), dt, bends);
       const bool finest = grid.level() == StepGrid::max_level;
       const double may_add = allowed_in(missed, grid);
       if (missed && may_become(missed->free) > may_add && !finest) {
         grid.refine();
         continue;
       }
-      Step step = missed ? step_that_misses(*missed, grid) : scheme_.scheme->step(instant(grid.time()), dt);
+      const Step step = take(grid.time(), dt, missed);
       state_.factorisations = earlier_factorisations_ + scheme_.scheme->factorisations();
       if (step.local.size() == 0) {
         refine(grid, twice_too_long);
@@ -234,22 +234,24 @@ class HeatRun::Implementation {
     return grid.level() < StepGrid::max_level && bends.most_between(grid.time(), grid.time() + grid.step()) > seen;
   }
 
-  // What the scheme's own estimate of a step does not see of bends within it [K]; nothing if there are none. A step that passes
-  // outputs is so long that what bends more gently is looked at, too.
-  [[nodiscard]] std::optional<DriveDefect> missed_in(const StepGrid& grid, const TimeBends& bends) const {
-    const bool long_one = drives_.vary() && passed_.any_in(grid.step());
-    if (!long_one && !bends.any_between(grid.time(), grid.time() + grid.step())) return std::nullopt;
-    return drive_defect(model_, scheme_.scheme->drive_quadrature(grid.step()), grid.time(), grid.step(), state_.temperature,
+  // What the scheme's own estimate of a step does not see of bends within it [K]; nothing if there are none. A step that is so
+  // long that it may pass outputs, or that nothing has chosen, is looked at where what drives it bends more gently, too.
+  [[nodiscard]] std::optional<DriveDefect> missed_in(double begin, double length, const TimeBends& bends) const {
+    const bool fixed = options_.integrator == Integrator::explicit_euler;
+    const bool gently = drives_.vary() && (fixed || passed_.any_in(length));
+    if (!gently && !bends.any_between(begin, begin + length)) return std::nullopt;
+    return drive_defect(model_, scheme_.scheme->drive_quadrature(length), begin, length, state_.temperature,
                         capacity_at(model_, state_.temperature));
   }
 
-  // The step that the grid is at, with what it misses in its error.
-  Step step_that_misses(const DriveDefect& missed, const StepGrid& grid) {
-    Instant from = instant(grid.time());
-    from.error = held(model_, std::move(from.error), missed.held);
-    Step step = scheme_.scheme->step(from, grid.step());
+  // A step with what it misses in its error.
+  Step take(double begin, double length, const std::optional<DriveDefect>& missed) {
+    if (!missed) return scheme_.scheme->step(instant(begin), length);
+    Instant from = instant(begin);
+    from.error = held(model_, std::move(from.error), missed->held);
+    Step step = scheme_.scheme->step(from, length);
     if (step.local.size() == 0) return step;  // it was not solved, and has no error
-    step.error = held(model_, step.error + missed.free, Eigen::VectorXd::Zero(missed.held.size()));
+    step.error = held(model_, step.error + missed->free, Eigen::VectorXd::Zero(missed->held.size()));
     return step;
   }
 
@@ -271,9 +273,10 @@ class HeatRun::Implementation {
   void fixed_steps(double begin, double length, const Progress& progress) {
     const auto count = static_cast<std::int64_t>(std::max(1.0, std::ceil(length / explicit_step_)));
     const double dt = length / static_cast<double>(count);
+    const TimeBends bends(model_, begin, begin + length);
     for (std::int64_t i = 1; i <= count; ++i) {
-      const Step step = scheme_.scheme->step(instant(begin + static_cast<double>(i - 1) * dt), dt);
-      accept(step, dt, begin + static_cast<double>(i) * dt, 0, progress);
+      const double from = begin + static_cast<double>(i - 1) * dt;
+      accept(take(from, dt, missed_in(from, dt, bends)), dt, begin + static_cast<double>(i) * dt, 0, progress);
     }
   }
 

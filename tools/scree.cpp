@@ -22,6 +22,7 @@
 #include "engine/packing/remaining.h"
 #include "tools/accuracy/accuracy_command.h"
 #include "tools/command_line/completion.h"
+#include "tools/command_line/expect_values.h"
 #include "tools/command_line/manual.h"
 #include "tools/render_command.h"
 #include "tools/report/report_command.h"
@@ -227,17 +228,30 @@ void declare(CLI::App& app, Arguments& arguments) {
   declare_reference(app, arguments);
 }
 
+// What was asked for by --help and --version, or what is wrong with the command.
+int said_by(const CLI::App& app, const CLI::ParseError& error) {
+  if (app.exit(error) != 0) return 2;
+  try {
+    flush_output();
+    return 0;
+  } catch (const scree::RunError& failure) {
+    fmt::print(stderr, "scree: {}\n", failure.what());
+    return 1;
+  }
+}
+
 int command(int argc, char** argv) {
   CLI::App app("Scree: bodies fall apart into blocks, pile up and are heated.", "scree");
   Arguments arguments;
   declare(app, arguments);
+  scree::command_line::expect_values(app);
   try {
     app.parse(argc, argv);
     const int status = dispatch(app, arguments);
     flush_output();
     return status;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return said_by(app, error);
   } catch (const scree::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

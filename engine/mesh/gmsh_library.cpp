@@ -4,7 +4,10 @@
 #include <type_traits>
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <gmshc.h>
+
+#include "engine/base/check.h"
 
 namespace scree::mesh::gmsh {
 
@@ -13,7 +16,7 @@ namespace {
 // Loaded once; what was loaded stays.
 void* library() {
   static void* const handle = dlopen(SCREE_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
-  if (handle == nullptr) throw GmshFailure{dlerror()};
+  if (handle == nullptr) throw RunError(fmt::format("Gmsh could not be loaded: {}", dlerror()));
   return handle;
 }
 

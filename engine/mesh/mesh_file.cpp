@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -65,12 +67,18 @@ RawMesh read_raw(const BodySpec& body, const MeshReaders& more) {
   if (!std::filesystem::is_regular_file(path, ignored)) {
     throw file_error(body, "no such file", "A relative path counts from the scene's folder");
   }
+  if (!std::ifstream(path, std::ios::binary)) {
+    throw file_error(body, fmt::format("must be a file that can be read ({})", std::strerror(errno)),
+                     "Look at its permissions");
+  }
   const auto damaged = [&](const std::string& reason) {
     return file_error(body, fmt::format("must be a whole {} mesh; it cannot be read: {}", extension, reason),
                       "Export it again");
   };
   try {
     return reader->second(path);
+  } catch (const RunError&) {
+    throw;  // it is not the file's fault
   } catch (const GmshFailure& failure) {
     throw damaged(failure.reason);
   } catch (const std::runtime_error& failure) {

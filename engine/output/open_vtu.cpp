@@ -18,6 +18,8 @@ namespace scree::output {
 
 namespace {
 
+constexpr auto more_than_memory = "it says that it has more points or cells than there is memory for";
+
 // VTK tells its errors to observers; without one it prints them.
 void keep_first_error(vtkObject*, unsigned long, void* kept, void* message) {
   auto& reason = *static_cast<std::string*>(kept);
@@ -76,7 +78,9 @@ vtkSmartPointer<vtkUnstructuredGrid> open_vtu(const std::filesystem::path& file)
   try {
     reader->Update();
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error("it says that it has more points or cells than there is memory for");
+    throw std::runtime_error(more_than_memory);
+  } catch (const std::length_error&) {
+    throw std::runtime_error(more_than_memory);
   }
   if (!reason.empty()) throw std::runtime_error(reason);
   if (reader->GetErrorCode() != 0) throw std::runtime_error("VTK cannot read it");

@@ -24,9 +24,10 @@ constexpr int not_installed = 127;
 
 using Words = std::vector<std::string>;
 
-// One thread and no random numbers in the file: the same images give the same bytes.
+// One thread and no random numbers in the file: the same images give the same bytes. Of a disk that is full only the end of the
+// file tells at times, which is an error for ffmpeg if it is asked to end on errors.
 Words command(const std::filesystem::path& target, const std::string& container, const VideoFormat& format) {
-  Words words{"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24"};
+  Words words{"ffmpeg", "-loglevel", "error", "-xerror", "-y", "-f", "rawvideo", "-pixel_format", "rgb24"};
   const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
   add({"-video_size", fmt::format("{}x{}", format.width, format.height), "-framerate", fmt::format("{:g}", format.rate)});
   add({"-i", "-", "-vf", "vflip", "-pix_fmt", "yuv420p"});

@@ -22,7 +22,8 @@ struct SettleReport {
   double window = 0;            // that window [s]
   double max_penetration = 0;   // over all pairs, on the true geometry [m]
   double mean_penetration = 0;  // over the pairs that touch [m]
-  // Deepest overlap of two blocks at any time of the fall, over the size (cube root of the volume) of the smaller [-].
+  // Deepest overlap of two blocks at any time of the fall, over the size of the smaller: the cube root of its volume, or the
+  // thickness of a convex one, if that is less [-].
   double deepest_overlap = 0;
   double mean_edge = 0;  // of the free blocks' elements [m]
   double top = 0;        // highest point of a free block, against gravity, above what is fixed below it (scene_bounds.h) [m]

@@ -1,6 +1,7 @@
 #include "engine/rigid/polyhedron_shape.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace scree::rigid {
@@ -9,6 +10,20 @@ PolyhedronShape::PolyhedronShape(mesh::ConvexPiece piece) : piece_(std::move(pie
   m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
   setMargin(0);
   for (const auto& vertex : piece_.vertices) radius_ = std::max(radius_, vertex.norm());
+}
+
+double PolyhedronShape::thickness() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& face : piece_.faces) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& vertex : piece_.vertices) {
+      const double height = face.normal.dot(vertex);
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    least = std::min(least, high - low);
+  }
+  return least;
 }
 
 void PolyhedronShape::getAabb(const btTransform& pose, btVector3& low, btVector3& high) const {

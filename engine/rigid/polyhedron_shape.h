@@ -30,6 +30,8 @@ class PolyhedronShape final : public btConvexInternalShape {
   [[nodiscard]] const mesh::ConvexPiece& piece() const { return piece_; }
   // Of the smallest sphere about the origin that holds the piece [m].
   [[nodiscard]] double radius() const { return radius_; }
+  // Least extent of the piece along the normal of one of its faces [m].
+  [[nodiscard]] double thickness() const;
 
   void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override;
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override;

@@ -110,7 +110,7 @@ struct World::Item {
   Pose frame;  // from the body's axes (centre of mass, principal) to the mesh's
   double mass = 0;
   double radius = 0;
-  double size = 0;
+  double size = 0;  // that overlaps are measured by (World::deepest_overlap)
 };
 
 World::World(const mesh::BlockMesh<3>& mesh, const Table<MaterialId, Material>& materials, const SettleOptions& options)
@@ -153,6 +153,7 @@ void World::add_block(const mesh::BlockMesh<3>& mesh, BlockId block, const Mater
   info.m_friction = material.friction;
   info.m_restitution = material.restitution;
   item.size = size_of(mesh, mesh.blocks[block]);
+  if (!item.compound) item.size = std::min(item.size, item.pieces.front()->thickness());
   item.body = std::make_unique<btRigidBody>(info);
   item.body->setUserIndex(static_cast<int>(block.index()));
   // Bullet's own sleeping, which asks for speeds only, is not used.

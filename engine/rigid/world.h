@@ -48,8 +48,8 @@ class World {
   // Mean over the touching pairs of the magnitude of the contact force of the last step [N].
   [[nodiscard]] double mean_contact_force(double time_step) const;
 
-  // Of all touching pairs in the last step, over the size (cube root of the volume) of the smaller block; 0 if none overlaps
-  // [-].
+  // Of all touching pairs in the last step, over the size of the smaller block: the cube root of its volume, or of a convex one
+  // the least extent along the normal of a face, if that is less. 0 if none overlaps [-].
   [[nodiscard]] double deepest_overlap() const;
 
   // Moves all free blocks by the same way and gives them the same velocity.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -43,6 +44,20 @@ TEST_F(MeshFiles, AVolumeMeshIsUsedAsItIs) {
   EXPECT_EQ(meshes[0].elements, meshes[1].elements);
   for (const NodeId node : meshes[0].nodes.ids()) {
     EXPECT_LT((meshes[0].nodes[node] - meshes[1].nodes[node]).norm(), 1e-14);
+  }
+}
+
+// It may be there the next time, with the same file.
+TEST_F(MeshFiles, WithoutAFolderForTemporaryFilesItIsTheRunThatFails) {
+  write_box(directory_ / "box.msh", false);
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  ASSERT_EQ(setenv("TMPDIR", "/proc/no such folder", 1), 0);
+  EXPECT_THROW(make_blocks<3>({body_with("box.msh", "", 9)}), RunError);
+  if (before == nullptr) {
+    unsetenv("TMPDIR");
+  } else {
+    setenv("TMPDIR", kept.c_str(), 1);
   }
 }
 

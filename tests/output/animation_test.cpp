@@ -7,6 +7,7 @@
 
 #include "engine/base/check.h"
 #include "engine/output/render.h"
+#include "tests/file_limit.h"
 #include "tests/output/pixels.h"
 #include "tests/output/synthetic_pile.h"
 
@@ -66,6 +67,20 @@ TEST_F(AnimationTest, TheHeapIsColdInTheFirstFrameAndHotBelowInTheLastOnOneScale
     const Patch hot = find_pixels(frame(video, 1), scene_columns, is_hot);
     EXPECT_GT(hot.pixels, 3000) << name;
     EXPECT_GT(find_pixels(frame(video, 1), scene_columns, is_cold).row, hot.row + 20) << name;
+  }
+}
+
+TEST_F(AnimationTest, FailsOnAFullDiskAndLeavesNothing) {
+  for (const char* name : {"heat.webm", "heat.mp4"}) {
+    const auto video = folder_.path() / name;
+    animate(picture_, {1, {}}, video);
+    const auto whole = std::filesystem::file_size(video);
+    std::filesystem::remove(video);
+    for (const std::size_t room : {whole / 2, whole - 1}) {
+      const test::FileLimit full(room);
+      EXPECT_THROW(animate(picture_, {1, {}}, video), RunError) << name << room;
+      EXPECT_FALSE(std::filesystem::exists(video)) << name << room;
+    }
   }
 }
 

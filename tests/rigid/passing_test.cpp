@@ -1,4 +1,5 @@
 // Blocks that slide, fall and fly past each other.
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -60,6 +61,33 @@ TEST(Passing, NothingFallsThroughAShelfAfterALongFall) {
     const auto packing = settle(mesh, material(0.5), for_time(std::sqrt(2 * height / g) + 0.1));
     EXPECT_NEAR(packing.poses[block].translation.z(), -height, 1e-3) << height;
   }
+}
+
+// Plates that fall on each other, by nine times their thickness a step.
+TEST(Passing, NoPlateFallsThroughAnotherUnseen) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> part(-1, 1);
+  int passed = 0;
+  for (int i = 0; i < 40; ++i) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {2, 2, 0.2}, {0, 0, -0.1}, true);
+    std::array<BlockId, 3> plates{};
+    std::array<Vector3d, 3> start;
+    for (std::size_t p = 0; p < plates.size(); ++p) {
+      const Eigen::Quaterniond tilt(1, 0.15 * part(random), 0.15 * part(random), 0.3 * part(random));
+      start[p] = {0, 0, 1 + 0.1 * static_cast<double>(p)};
+      plates[p] = add_box(mesh, {0.2, 0.2, 0.002}, Pose{start[p], tilt.normalized()}, false);
+    }
+    const auto packing = settle(mesh, material(0.6), for_time(1));
+    const auto at = [&](std::size_t p) { return packing.poses[plates[p]] * start[p]; };
+    for (std::size_t p = 0; p + 1 < plates.size(); ++p) {
+      const bool beside = (at(p + 1) - at(p)).head<2>().norm() > 0.05;
+      if (beside || at(p + 1).z() > at(p).z()) continue;
+      ++passed;
+      EXPECT_GT(packing.settled->deepest_overlap, 0.5) << i;
+    }
+  }
+  EXPECT_GT(passed, 0) << "the steps are short enough, and the test sees nothing";
 }
 
 // At three sizes a step, in any attitude: whatever hits leaves its path, or the run says how deep it was.

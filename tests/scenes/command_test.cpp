@@ -71,9 +71,22 @@ TEST(Command, RefusesNamesThatMeanNothingInWordsThatSayWhat) {
   expect_refused("accuracy " + scene("slab") + " --out /proc/nowhere", 1, "/proc/nowhere: cannot be created");
 }
 
+// As a variable of a shell that is not set: it must not be taken for an option that was left away.
+TEST(Command, RefusesOptionsWithAnEmptyValue) {
+  const std::string study = std::string(SCREE_SOURCE_DIR) + "/scenes/studies/heating_time.yaml";
+  for (const std::string& arguments : {"run " + scene("slab") + " --out ''", "check " + scene("slab") + " --set ''",
+                                       "study " + study + " --slurm ''", std::string("report ''")}) {
+    const Outcome outcome = scree(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_NE(outcome.text.find("must not be empty"), std::string::npos) << outcome.text;
+  }
+}
+
 TEST(Command, FailsIfWhatItPrintsDoesNotArrive) {
-  const int status = std::system((std::string(SCREE_PROGRAM) + " check " + scene("slab") + " > /dev/full").c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  for (const std::string& arguments : {"check " + scene("slab"), std::string("run --help"), std::string("--version")}) {
+    const int status = std::system((std::string(SCREE_PROGRAM) + " " + arguments + " > /dev/full").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+  }
 }
 
 TEST(Command, IsSilentWhenAskedTo) {

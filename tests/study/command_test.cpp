@@ -292,6 +292,15 @@ TEST(StudyCommand, DrawsItsTable) {
             study.file.parent_path());
   EXPECT_EQ(ended.status, 0) << ended.text;
   EXPECT_GT(fs::file_size(study.out / "warm.png"), 5000u);
+  // Neither the user's own settings of gnuplot nor a full disk, of which gnuplot says nothing.
+  std::ofstream(study.file.parent_path() / ".gnuplot") << "exit status 3\n";
+  const fs::path again = study.file.parent_path() / "again.png";
+  const std::string drawing = std::string(SCREE_PROGRAM) + " plot " + study.out.string() +
+                              " --x contact.stiffness_factor --y warm --picture " + again.string();
+  EXPECT_EQ(shell("HOME=" + study.file.parent_path().string() + " " + drawing, study.file.parent_path()).status, 0);
+  ASSERT_TRUE(fs::remove(again));
+  EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; " + drawing, study.file.parent_path()).status, 1);
+  EXPECT_FALSE(fs::exists(again));
   // What gnuplot would take for a command, an escape or the end of a text is a part of it.
   const fs::path odd = study.file.parent_path() / "a `touch run`, \"b\\n'c.png";
   std::ofstream(study.file.parent_path() / "plot.sh")

@@ -53,6 +53,41 @@ TEST(ChangingDrives, APulseInATableIsNotLeaptOver) {
   }
 }
 
+// Fixed steps do leap over it, and say what that makes.
+TEST(ChangingDrives, ThePulseThatAFixedStepLeapsOverIsInItsError) {
+  const Function pulse =
+      Function::from_table(LinearTable({0, 1000, 1010, 1400, 1410, 3600}, {0, 0, 1e7, 1e7, 0, 0}), ValueRule{});
+  const HeatState leapt = after_an_hour_of(pulse, Integrator::explicit_euler);
+  const HeatState followed = after_an_hour_of(pulse, Integrator::implicit);
+  const double missed = (leapt.temperature - followed.temperature).lpNorm<Eigen::Infinity>();
+  EXPECT_EQ(leapt.ledger.by_applied[0], 0) << "the step is short enough, and the test sees nothing";
+  EXPECT_GT(missed, 100);
+  EXPECT_GT(leapt.time_error, 0.9 * missed);
+  EXPECT_LT(leapt.time_error, 1.2 * missed);
+}
+
+TEST(ChangingDrives, TheErrorOfFixedStepsSeesSurroundingsAndHeldTemperaturesBetweenTheirEnds) {
+  const Function pulse =
+      Function::from_table(LinearTable({0, 1000, 1010, 1400, 1410, 3600}, {300, 300, 900, 900, 300, 300}), ValueRule{});
+  const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
+  for (const bool holds : {false, true}) {
+    HeatOptions options = options_for(mesh, 300);
+    Boundary left = test::hold(BodyId{0}, 0, 0, "pulse");
+    left.condition = holds ? decltype(left.condition)(FixedTemperature{pulse}) : Convection{5.0, pulse};
+    options.boundaries.push_back(left);
+    const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
+    const auto after_an_hour = [&](Integrator integrator) {
+      HeatRun run(model, an_hour(integrator));
+      run.advance_to(3600);
+      return run.state();
+    };
+    const HeatState leapt = after_an_hour(Integrator::explicit_euler), followed = after_an_hour(Integrator::implicit);
+    const double missed = (leapt.temperature - followed.temperature).lpNorm<Eigen::Infinity>();
+    EXPECT_GT(missed, 0.5) << holds;
+    EXPECT_GT(leapt.time_error, 0.9 * missed) << holds;
+  }
+}
+
 TEST(ChangingDrives, APulseInAFormulaIsNotLeaptOver) {
   const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
   for (const Integrator integrator : integrators) {
