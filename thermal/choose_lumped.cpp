@@ -12,6 +12,7 @@
 #include "thermal/contact_conduction.h"
 #include "thermal/exchange.h"
 #include "thermal/inner_resistance.h"
+#include "thermal/least_conductivity.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -58,7 +59,7 @@ class Chooser {
     look_at_held();
     look_at_perfect();
     if (!problems_.empty()) throw InputError(problems_);
-    find_least_conductivities();
+    find_conductivities();
     std::vector<LumpedBlock> chosen;
     const std::vector<Entry> entries = entries_of_candidates();
     auto first = entries.begin();
@@ -71,7 +72,7 @@ class Chooser {
       first = last;
     }
     if (chosen.empty()) return std::nullopt;
-    return LumpedBlocks(std::move(chosen), mesh_.blocks.size());
+    return LumpedBlocks(std::move(chosen), mesh_.blocks.size(), std::move(conductivities_));
   }
 
  private:
@@ -176,11 +177,12 @@ class Chooser {
   [[nodiscard]] LumpedBlock described(BlockId b, const Entries& entries) const {
     LumpedBlock block;
     block.block = b;
+    block.material = mesh_.bodies[mesh_.blocks[b].body].material;
     if (entries.empty()) return block;
     const mesh::Block& of = mesh_.blocks[b];
-    const MaterialId material = mesh_.bodies[of.body].material;
-    const Conductivity& conductivity = *materials_[material].conductivity;
-    const InnerResistance<dim> inside(mesh_, of, least_[material] * conductivity_ratios<dim>(conductivity, of));
+    const Conductivity& conductivity = *materials_[block.material].conductivity;
+    const InnerResistance<dim> inside(mesh_, of,
+                                      conductivities_[block.material].least * conductivity_ratios<dim>(conductivity, of));
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
@@ -209,40 +211,16 @@ class Chooser {
     return patch.area > 0 ? (patch.load ? of_load : 1) * inside.constriction(patch.area) : 0;
   }
 
-  // Of what is cold and hot at the start, within and outside: a block's temperature may go anywhere between.
-  [[nodiscard]] std::pair<double, double> range_at_start() const {
-    double low = model_.initial.minCoeff(), high = model_.initial.maxCoeff();
-    const auto include = [&](double temperature) {
-      low = std::min(low, temperature);
-      high = std::max(high, temperature);
-    };
-    for (const double held : start_.fixed) include(held);
-    for (const ExchangeRates& rates : start_.exchanges) {
-      for (const double temperature : rates.surroundings) include(temperature);
-    }
-    return {low, high};
-  }
-
-  // A formula need not have a value at the temperature of a sky, which no block comes near.
-  static double value_or_infinity(const Curve& curve, double temperature) {
-    try {
-      return curve(temperature);
-    } catch (const InputError&) {
-      return std::numeric_limits<double>::infinity();
-    }
-  }
-
-  void find_least_conductivities() {
-    constexpr int looks = 64;
-    const auto [low, high] = range_at_start();
+  // Of what is cold and hot at the start, within and outside: a block's temperature may go anywhere between. Where it goes
+  // beyond that LumpingEstimate knows.
+  void find_conductivities() {
+    TemperatureRange range;
+    range.include(model_.initial);
+    range.include(start_);
     for (const MaterialId material : materials_.ids()) {
-      double least = std::numeric_limits<double>::infinity();
-      if (materials_[material].conductivity) {
-        const Curve& k = materials_[material].conductivity->value;
-        const int count = k.constant() ? 0 : looks;
-        for (int i = 0; i <= count; ++i) least = std::min(least, value_or_infinity(k, low + i * (high - low) / looks));
-      }
-      least_.push_back(least);
+      const auto& conductivity = materials_[material].conductivity;
+      const Curve value = conductivity ? conductivity->value : Curve(std::numeric_limits<double>::infinity());
+      conductivities_.push_back({value, least_conductivity(value, range)});
     }
   }
 
@@ -331,8 +309,8 @@ class Chooser {
   const JointConduction& joints_;
   const HeatOptions& options_;
   const HeatModel& model_;
-  const Drive start_;                // what acts from outside then
-  Table<MaterialId, double> least_;  // k on the way between what is cold and hot at the start [W/m/K]
+  const Drive start_;  // what acts from outside then
+  Table<MaterialId, LumpedConductivity> conductivities_;
   Table<BlockId, BlockModel> wanted_;
   Table<BlockId, Held> held_;
   std::set<std::string> refused_;

@@ -320,8 +320,12 @@ class HeatRun::Implementation {
     state_.least_step = state_.steps == 1 ? dt : std::min(state_.least_step, dt);
     state_.largest_step = std::max(state_.largest_step, dt);
     state_.reached.include(state_.temperature);
-    if (lumping_) lumping_->advance(state_.temperature, drives_.at(time), dt, state_.lumping);
     if (drives_.vary()) include_drive(time);
+    if (lumping_) {
+      TemperatureRange range = state_.reached;
+      range.include(state_.given);
+      lumping_->advance(state_.temperature, drives_.at(time), dt, range, state_.lumping);
+    }
     if (include_range()) growth_now_ = growth_.at(state_.temperature);
     if (progress) progress(time);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/curve.h"
 #include "engine/base/ids.h"
 
 namespace scree::thermal {
@@ -30,15 +31,23 @@ struct LumpedPatch {
 
 struct LumpedBlock {
   BlockId block;
+  MaterialId material;
   NodeId row;                        // of the heat model
   double biot = 0;                   // conductances through its surface times what its inside resists (choose_lumped.h) [-]
   std::vector<LumpedPatch> patches;  // ascending
   double start_spread = 0;           // largest distance of a temperature at the start from the block's [K]
 };
 
+// Of a material.
+struct LumpedConductivity {
+  Curve value;       // [W/m/K]
+  double least = 0;  // by which its blocks' resistances go: on the way between what is cold and hot at the start
+};
+
 class LumpedBlocks {
  public:
-  LumpedBlocks(std::vector<LumpedBlock> ascending, std::size_t blocks) : blocks_(std::move(ascending)), at_(blocks, -1) {
+  LumpedBlocks(std::vector<LumpedBlock> ascending, std::size_t blocks, Table<MaterialId, LumpedConductivity> conductivities)
+      : blocks_(std::move(ascending)), at_(blocks, -1), conductivities_(std::move(conductivities)) {
     for (std::size_t i = 0; i < blocks_.size(); ++i) at_[blocks_[i].block] = static_cast<int>(i);
   }
 
@@ -51,10 +60,12 @@ class LumpedBlocks {
 
   [[nodiscard]] const std::vector<LumpedBlock>& all() const { return blocks_; }
   [[nodiscard]] std::vector<LumpedBlock>& all() { return blocks_; }
+  [[nodiscard]] const Table<MaterialId, LumpedConductivity>& conductivities() const { return conductivities_; }
 
  private:
   std::vector<LumpedBlock> blocks_;
   Table<BlockId, int> at_;
+  Table<MaterialId, LumpedConductivity> conductivities_;
 };
 
 struct BiotRange {

@@ -9,6 +9,7 @@
 #include "engine/base/check.h"
 #include "thermal/exchange.h"
 #include "thermal/kirchhoff_matrix.h"
+#include "thermal/least_conductivity.h"
 
 namespace scree::thermal {
 
@@ -45,20 +46,25 @@ struct LumpingEstimate::Flow {
 
 // What flows through one block's patches makes of it.
 struct LumpingEstimate::Inside {
+  double harder = 1;       // times what it resists at the start [-]
   double in = 0;           // sum of R |q| of what flows into it [K]
   double out = 0;          // out of it [K]
   double constricted = 0;  // max c |q| [K]
 
   void add(const BothWays& heat, const PatchResistance& resists) {
-    in += resists.bulk * heat.in;
-    out += resists.bulk * heat.out;
-    constricted = std::max(constricted, resists.constriction * std::max(heat.in, heat.out));
+    in += harder * resists.bulk * heat.in;
+    out += harder * resists.bulk * heat.out;
+    constricted = std::max(constricted, harder * resists.constriction * std::max(heat.in, heat.out));
   }
   [[nodiscard]] double largest() const { return in + out + constricted; }
 };
 
 LumpingEstimate::LumpingEstimate(const HeatModel& model)
-    : model_(model), blocks_(model.lumped->all()), balance_(model), free_(model) {
+    : model_(model),
+      blocks_(model.lumped->all()),
+      harder_(model.lumped->conductivities().size(), 1),
+      balance_(model),
+      free_(model) {
   make_matrix();
   for (std::size_t i = 0; i < blocks_.size(); ++i) add_links(static_cast<int>(i));
   std::size_t first = model.lumped->of_blocks();
@@ -111,7 +117,20 @@ LumpingError LumpingEstimate::start() const {
   return error;
 }
 
-void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error) {
+// A material may conduct worse where nothing was at the start.
+void LumpingEstimate::include(const TemperatureRange& range) {
+  if (range.least >= range_.least && range.largest <= range_.largest) return;
+  range_ = range;
+  for (const MaterialId material : harder_.ids()) {
+    const LumpedConductivity& conductivity = model_.lumped->conductivities()[material];
+    if (!conductivity.value.constant())
+      harder_[material] = std::max(1.0, conductivity.least / least_conductivity(conductivity.value, range));
+  }
+}
+
+void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& drive, double length,
+                              const TemperatureRange& range, LumpingError& error) {
+  include(range);
   const std::vector<Flow> through = flows(temperature, drive);
   const std::vector<Inside> within = insides(through, drive.time);
   double inside = 0;
@@ -146,6 +165,7 @@ void LumpingEstimate::for_each_patch(const std::vector<Flow>& flows, const Visit
 
 std::vector<LumpingEstimate::Inside> LumpingEstimate::insides(const std::vector<Flow>& flows, double time) const {
   std::vector<Inside> insides(blocks_.size());
+  for (std::size_t i = 0; i < insides.size(); ++i) insides[i].harder = harder_[blocks_[i].material];
   for_each_patch(flows, [&](const Patch& patch, std::span<const Flow> through) {
     BothWays heat;
     for (const Flow& flow : through) heat.add(flow.heat);
@@ -183,7 +203,7 @@ Eigen::VectorXd LumpingEstimate::missing(const std::vector<Flow>& flows, const s
     BothWays passes;
     for (const Flow& flow : through) passes.add(flow.heat);
     for (const Flow& flow : through) {
-      const double constricted = patch.resists.constriction * (flow.heat > 0 ? passes.in : passes.out);
+      const double constricted = inside.harder * patch.resists.constriction * (flow.heat > 0 ? passes.in : passes.out);
       const double surface = (flow.heat > 0 ? inside.in : inside.out) + constricted;
       const double less = flow.heat == 0 ? 0 : std::copysign(flow.conductance * surface, flow.heat);
       if (link != links_.end()) {

@@ -17,6 +17,7 @@
 
 #include "thermal/free_nodes.h"
 #include "thermal/heat_balance.h"
+#include "thermal/temperature_range.h"
 
 namespace scree::thermal {
 
@@ -32,8 +33,10 @@ class LumpingEstimate {
 
   [[nodiscard]] LumpingError start() const;
 
-  // After a step of `length` [s] to these temperatures; an infinite one leads to the steady state.
-  void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, LumpingError& error);
+  // After a step of `length` [s] to these temperatures; an infinite one leads to the steady state. `range`: what temperatures
+  // there have been so far, within and outside.
+  void advance(const Eigen::VectorXd& temperature, const Drive& drive, double length, const TemperatureRange& range,
+               LumpingError& error);
 
  private:
   // Where heat passes between a lumped block's row and another one: an entry of K off its diagonal.
@@ -55,6 +58,7 @@ class LumpingEstimate {
   };
   struct Flow;
   struct Inside;
+  void include(const TemperatureRange& range);
   void add_links(int block);
   // Where the exchange or load `number` reaches lumped blocks. Patches of its kind are numbered from `first` on.
   void add_places(const NodeShares& on, std::size_t number, std::size_t first, std::vector<Place>& places,
@@ -73,6 +77,8 @@ class LumpingEstimate {
 
   const HeatModel& model_;
   const std::vector<LumpedBlock>& blocks_;
+  TemperatureRange range_;
+  Table<MaterialId, double> harder_;  // how many times what blocks resist at the start they may resist in that range [-]
   HeatBalance balance_;
   FreeNodes free_;
   // Links of all lumped blocks in turn, then places of all exchanges; patches in the order of both.

@@ -62,7 +62,9 @@ class SteadySolver {
       LumpingEstimate estimate(model_);
       state.lumping = estimate.start();
       state.lumping.largest = 0;  // the start is forgotten
-      estimate.advance(state.temperature, drive_, std::numeric_limits<double>::infinity(), state.lumping);
+      TemperatureRange range = state.reached;
+      range.include(state.given);
+      estimate.advance(state.temperature, drive_, std::numeric_limits<double>::infinity(), range, state.lumping);
     }
     return state;
   }

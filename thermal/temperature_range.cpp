@@ -16,6 +16,11 @@ void TemperatureRange::include(const Drive& drive) {
   for (const ExchangeRates& rates : drive.exchanges) include(rates.surroundings);
 }
 
+void TemperatureRange::include(const TemperatureRange& other) {
+  least = std::min(least, other.least);
+  largest = std::max(largest, other.largest);
+}
+
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
   if (!model.loads.empty()) return std::nullopt;
   const double above = state.reached.largest - state.given.largest;

@@ -13,6 +13,7 @@ struct TemperatureRange {
 
   void include(const Eigen::VectorXd& temperatures);
   void include(const Drive& drive);  // temperatures held, and of surroundings
+  void include(const TemperatureRange& other);
 };
 
 }  // namespace scree::thermal

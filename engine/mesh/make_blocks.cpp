@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "engine/mesh/arrangement.h"
 #include "engine/mesh/made_from.h"
 #include "engine/mesh/mesh_file.h"
@@ -172,6 +174,18 @@ void make_room(BlockMesh<dim>& mesh, const Parts<dim>& pieces, std::size_t copie
   make_room(mesh.blocks, copies * pieces.meshes.size());
 }
 
+// Coordinates have 16 digits.
+void check_distance(const BodySpec& body, const Bounds& bounds, const std::vector<Pose>& poses) {
+  constexpr double most = 1e10;
+  for (const Pose& pose : poses) {
+    const double distance = (pose * bounds.centre).norm();
+    if (distance <= most * bounds.radius) continue;
+    throw body_error(body, "", fmt::format("{:g} m from the origin", distance),
+                     fmt::format("must be within {:g} times its size of it: coordinates are rounded", most),
+                     "Count coordinates from a point in the scene");
+  }
+}
+
 // How a body breaks into blocks decides what is asked of a mesh file (volume_mesh.h).
 bool gives_same_mesh(const BodySpec& a, const BodySpec& b) {
   const bool asked_the_same = a.blocks == b.blocks || !std::holds_alternative<MeshFile>(a.shape);
@@ -196,7 +210,9 @@ BlockMesh<dim> make_blocks(const std::vector<BodySpec>& bodies, const MeshReader
     const BodyId id = mesh.bodies.push_back({body.name, body.material, body.fixed, body.velocity, made_from(body)});
     const std::size_t first_surface = mesh.surface_names.size();
     for (const std::string& name : whole.surfaces) mesh.surface_names.push_back({id, name});
-    const std::vector<Pose> poses = poses_of(body, bounds_of(whole), dim);
+    const Bounds bounds = bounds_of(whole);
+    const std::vector<Pose> poses = poses_of(body, bounds, dim);
+    check_distance(body, bounds, poses);
     make_room(mesh, pieces, poses.size());
     for (const Pose& pose : poses) {
       for (const SimplexMesh<dim>& piece : pieces.meshes) add_block(mesh, first_surface, piece, pose);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -204,6 +205,23 @@ SimplexMesh<dim> mesh_in_cells(const BodySpec& body, const ShapeType& shape) {
   }
 }
 
+// Of shapes that are a thousand times as slender Gmsh ends the program.
+template <int dim>
+void check_slenderness(const BodySpec& body) {
+  constexpr double most = 1e6;
+  double least = 0, largest = 0;
+  if (const auto* box = std::get_if<Box>(&body.shape)) {
+    least = box->size.head<dim>().minCoeff();
+    largest = box->size.head<dim>().maxCoeff();
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+    std::tie(least, largest) = std::minmax({cylinder->diameter, cylinder->height});
+  }
+  if (largest > most * least) {
+    throw body_error(body, "", fmt::format("{:g} m long and {:g} m thick", largest, least),
+                     fmt::format("must be no more than {:g} times as long as thick", most), "Look at the units of its lengths");
+  }
+}
+
 }  // namespace
 
 template <int dim>
@@ -219,6 +237,7 @@ SimplexMesh<dim> mesh_shape(const BodySpec& body) {
     }
   };
   check_cells<dim>(body);
+  check_slenderness<dim>(body);
   try {
     return std::visit(mesh, body.shape);
   } catch (const GmshFailure& failure) {

@@ -191,6 +191,23 @@ TEST(MakeBlocks, ACylinderInTwoDimensionsIsRefused) {
             "scene.yaml:4:10: bodies.stone.cylinder (a scene in 2-D has no cylinders). Use a box or a disc (sphere)");
 }
 
+TEST(MakeBlocks, ShapesThatAreFarTooSlenderAreRefused) {
+  EXPECT_EQ(make_blocks<3>({body_of(box_of(0.1, 1e5, 0.1), 1e5)}).blocks.size(), 1u);
+  for (const Shape& shape : {Shape(box_of(0.1, 1e8, 0.1)), Shape(Cylinder{1, 1e9})}) {
+    EXPECT_THAT(input_error([&] { make_blocks<3>({body_of(shape, 1e8)}); }),
+                testing::HasSubstr("1e+06 times as long as thick"));
+  }
+  EXPECT_THAT(input_error([] { make_blocks<2>({body_of(box_of(1, 1e12, 0), 1e12)}); }), testing::HasSubstr("as long as thick"));
+}
+
+TEST(MakeBlocks, ABodySoFarAwayThatItsCoordinatesAreRoundedIsRefused) {
+  BodySpec body = body_of(box_of(1, 1, 1), 1);
+  body.arrangement = AtPoses{{Pose{{3e7, 0, 0}, Eigen::Quaterniond::Identity()}}};
+  EXPECT_EQ(make_blocks<3>({body}).blocks.size(), 1u);
+  body.arrangement = AtPoses{{Pose{{1e16, 0, 0}, Eigen::Quaterniond::Identity()}}};
+  EXPECT_THAT(input_error([&] { make_blocks<3>({body}); }), testing::HasSubstr("1e+16 m from the origin"));
+}
+
 TEST(MakeBlocks, AMeshSizeThatWouldFillTheMemoryIsRefused) {
   EXPECT_EQ(
       input_error([] { make_blocks<3>({body_of(box_of(1, 1, 1), 1e-4)}); }),

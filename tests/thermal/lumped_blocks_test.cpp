@@ -320,6 +320,31 @@ TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyMayHave) {
   EXPECT_NEAR(formula.first, least.first, 1e-12 * least.first);
 }
 
+// A source heats it to where it conducts a tenth as well, which nothing is at the start.
+TEST(LumpedBlocks, KnowTheirErrorByTheLeastConductivityThatTheyComeToHave) {
+  const auto row_with = [](const Curve& conductivity, BlockModel blocks) {
+    auto row = row_of_cubes<2>(1, 8);
+    row.materials[MaterialId{0}].conductivity = conductivity;
+    row.options.initial_temperature[BodyId{0}] = 300.0;
+    row.options.boundaries.push_back(test::convection(BodyId{0}, 5, 300.0));
+    row.options.sources.push_back({test::on(BodyId{0}, test::between_x(0, 0.5 * test::side)), 4e5, "source", {}});
+    row.options.blocks.model = blocks;
+    return row.model();
+  };
+  const Curve falling = Curve::from_table(LinearTable({200, 300, 350, 2000}, {40, 40, 4, 4}));
+  const auto states = [&](const Curve& conductivity, BlockModel blocks) {
+    const HeatModel model = row_with(conductivity, blocks);
+    return std::vector<HeatState>{test::heated(model, 36000), find_steady_state(model, LinearSolver::cholesky).state};
+  };
+  const auto varying = states(falling, BlockModel::lumped), least = states(4.0, BlockModel::lumped);
+  const auto meshed = states(falling, BlockModel::meshed);
+  for (std::size_t i = 0; i < varying.size(); ++i) {
+    EXPECT_NEAR(varying[i].lumping.largest, least[i].lumping.largest, 0.02 * least[i].lumping.largest) << i;
+    const double mean = varying[i].temperature[0];
+    EXPECT_GT(varying[i].lumping.largest, (meshed[i].temperature.array() - mean).abs().maxCoeff()) << i;
+  }
+}
+
 TEST(LumpedBlocks, MakeAMeshedStateUnfit) {
   auto row = row_of_cubes<2>(1, 1);
   TimeOptions options;
