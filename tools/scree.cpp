@@ -1,6 +1,7 @@
 // The command: run, resume, check, render, report, accuracy, study, plot, keys, schema, completion, manual. Exit status: 0
 // complete and sound; 1 the run was not; 2 bad input.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -269,6 +270,8 @@ int command(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  // A file that a limit of the system keeps from growing is an error of writing it, as on a full disk, and not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return command(argc, argv);
   } catch (...) {

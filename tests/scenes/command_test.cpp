@@ -89,6 +89,18 @@ TEST(Command, FailsIfWhatItPrintsDoesNotArrive) {
   }
 }
 
+// Of the system for the size of files: the summary is small enough to be written yet.
+TEST(Command, SaysWhichFileALimitKeepsFromGrowing) {
+  const auto directory = fresh_directory("limited");
+  const auto log = fresh_directory("limited_log") / "log";
+  const int status = std::system(("ulimit -f 16; " + std::string(SCREE_PROGRAM) + " run " + scene("bars_and_joint") +
+                                  " --quiet --out " + directory.string() + " > " + log.string() + " 2>&1")
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(contents(log).find("File too large"), std::string::npos) << contents(log);
+  EXPECT_EQ(nlohmann::json::parse(contents(directory / "summary.json"))["status"], "failed");
+}
+
 TEST(Command, IsSilentWhenAskedTo) {
   const auto directory = fresh_directory("silent");
   const Outcome outcome = scree("run " + scene("slab") + " --quiet --out " + directory.string());
