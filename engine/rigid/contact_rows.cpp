@@ -74,8 +74,8 @@ SCREE_INLINE void set(Row& row, Moving& pair, double impulse) {
   row.applied = impulse;
 }
 
-SCREE_INLINE void press(Row& row, Moving& pair) {
-  set(row, pair, std::max(asked(row, pair), 0.0));
+SCREE_INLINE void press(Row& row, Moving& pair, double least = 0) {
+  set(row, pair, std::max(asked(row, pair), least));
 }
 
 // Coulomb's cone: both directions together within `most`. Bodies that stick get what each direction asks for. Where they slip,
@@ -111,15 +111,15 @@ SCREE_INLINE bool share_a_body(const ContactRow& a, const ContactRow& b) {
 }
 
 // Whether its friction may be anything but zero: one whose normal impulse has just gone must give up its friction, too.
-SCREE_INLINE bool solve_normal(ContactRow& row, Moving& pair) {
+SCREE_INLINE bool solve_normal(ContactRow& row, Moving& pair, double least = 0) {
   const bool pressed = row.normal.applied > 0;
-  press(row.normal, pair);
+  press(row.normal, pair, least);
   return pressed || row.normal.applied > 0;
 }
 
-SCREE_INLINE void solve_one(ContactRow& row, std::vector<BodyChange>& bodies, BodyChange& fixed) {
+SCREE_INLINE void solve_one(ContactRow& row, std::vector<BodyChange>& bodies, BodyChange& fixed, double least = 0) {
   Moving pair = take(row.bodies, bodies, fixed);
-  if (solve_normal(row, pair)) rub(row.friction, pair, row.coefficient * row.normal.applied);
+  if (solve_normal(row, pair, least)) rub(row.friction, pair, row.coefficient * row.normal.applied);
   put_back(pair);
 }
 
@@ -157,6 +157,11 @@ SCREE_WIDE void solve_contacts(std::span<ContactRow> rows, std::vector<BodyChang
       ++i;
     }
   }
+}
+
+SCREE_WIDE void solve_contacts(std::span<ContactRow> rows, std::span<const double> least, std::vector<BodyChange>& bodies) {
+  BodyChange fixed;
+  for (std::size_t i = 0; i < rows.size(); ++i) solve_one(rows[i], bodies, fixed, least[i]);
 }
 
 SCREE_WIDE void solve_overlaps(std::span<OverlapRow> rows, std::vector<BodyChange>& bodies) {

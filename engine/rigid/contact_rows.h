@@ -46,6 +46,8 @@ void apply_impulses(std::span<const ContactRow> rows, std::vector<BodyChange>& b
 
 // One pass over all contacts: normal impulse, then friction within what it allows (sequential impulses).
 void solve_contacts(std::span<ContactRow> rows, std::vector<BodyChange>& bodies);
+// The same with normal impulses of `least` at least, one for each row.
+void solve_contacts(std::span<ContactRow> rows, std::span<const double> least, std::vector<BodyChange>& bodies);
 void solve_overlaps(std::span<OverlapRow> rows, std::vector<BodyChange>& bodies);
 
 }  // namespace scree::rigid

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -58,6 +59,9 @@ class ContactSolver {
   bool order_rows(int slabs);
   void set_up(Motions motions, Contacts contacts, const StepLengths& step);
   void solve_rows(int iterations);
+  // By what the rows give them.
+  [[nodiscard]] bool bodies_gain_energy(const std::vector<btRigidBody*>& bodies) const;
+  void solve_by_impulses(int iterations);
   Batches gather_overlaps();
   void undo_overlaps(const std::vector<btRigidBody*>& bodies, const StepLengths& step, int iterations);
   void finish(const std::vector<btRigidBody*>& bodies, Contacts contacts);
@@ -66,10 +70,12 @@ class ContactSolver {
   std::vector<int> places_;  // of each block's body among the bodies; -1: fixed
   std::vector<BodyStart> starts_;
   std::vector<BodyChange> changes_;
-  std::vector<Entry> entries_;            // one per contact
-  std::vector<Touch> touches_;            // likewise
-  std::vector<ContactRow> rows_;          // by batches
-  std::vector<double> overlaps_;          // one per row, see overlap_impulse
+  std::vector<Entry> entries_;    // one per contact
+  std::vector<Touch> touches_;    // likewise
+  std::vector<ContactRow> rows_;  // by batches
+  std::vector<double> overlaps_;  // one per row, see overlap_impulse
+  std::vector<double> rebounds_;  // likewise, what of the row's wish is its rebound
+  std::atomic<bool> any_rebound_ = false;
   std::vector<OverlapRow> overlap_rows_;  // by batches, those of points that overlap
   Batches batches_;
 };

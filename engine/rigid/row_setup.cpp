@@ -83,8 +83,8 @@ PlacedContact place(HeldContact& contact, const btTransform& first, const btTran
   return placed;
 }
 
-void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int number, const Bodies& bodies,
-                const StepLengths& step) {
+double set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int number, const Bodies& bodies,
+                  const StepLengths& step) {
   const HeldPoint& point = contact.points[number];
   Arms arms{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   if (bodies[0] != nullptr) arms[0] = placed.points[number].on_first - bodies[0]->centre;
@@ -92,7 +92,8 @@ void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact
   // A pair apart may close its gap within the step.
   const double gap = std::max(point.distance - step.clearance, 0.0) / step.time_step;
   const Eigen::Vector3d& normal = placed.axes[0];
-  set_up_along(row.normal, normal, bodies, arms, rebound(point, normal, bodies, arms, step.bounce_speed) - gap);
+  const double parting = rebound(point, normal, bodies, arms, step.bounce_speed);
+  set_up_along(row.normal, normal, bodies, arms, parting - gap);
   for (int i = 0; i < 2; ++i) set_up_along(row.friction[i], placed.axes[i + 1], bodies, arms, 0);
   row.coefficient = contact.friction;
   row.normal.applied = point.impulses[0];
@@ -101,6 +102,7 @@ void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact
   const double size = std::hypot(point.impulses[1], point.impulses[2]);
   const double part = size > most ? most / size : 1;
   for (int i = 0; i < 2; ++i) row.friction[i].applied = part * point.impulses[i + 1];
+  return parting * row.normal.scale;
 }
 
 double overlap_impulse(const HeldPoint& point, const Row& normal, const StepLengths& step) {

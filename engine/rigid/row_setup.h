@@ -43,8 +43,9 @@ struct PlacedContact {
 PlacedContact place(HeldContact& contact, const btTransform& first, const btTransform& second);
 
 // The rows of a point, starting from the impulses of the last step; null: a fixed body. The row knows already whom it concerns.
-void set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int point,
-                const std::array<const BodyStart*, 2>& bodies, const StepLengths& step);
+// Returns the part of what its normal row wants that is its rebound.
+double set_up_row(ContactRow& row, const HeldContact& contact, const PlacedContact& placed, int point,
+                  const std::array<const BodyStart*, 2>& bodies, const StepLengths& step);
 
 // The impulse that would undo the overlap of the point by itself, or bring it to the clearance; zero if it is further apart.
 double overlap_impulse(const HeldPoint& point, const Row& normal, const StepLengths& step);

@@ -1,5 +1,6 @@
 // Coulomb's friction whatever the heading, and a fall to which nothing gives energy.
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -102,6 +103,31 @@ TEST(Rebound, NeedlesThatFallNeverClimbAndComeToLie) {
     });
     EXPECT_LE(highest, start.translation.z() + 1e-9) << degrees;
     EXPECT_NEAR(last, 0.001, 1e-4) << degrees;
+  }
+}
+
+// It flies away from a wall, or from a block of eight times its mass, at what comes towards it: all three meet in one step.
+// What hits it flies back with e times the speed that it was stopped from, whatever stands behind, and no energy is gained.
+TEST(Rebound, OfABlockThatIsHitBeforeAnotherIsThatOfTheTwoThatMeet) {
+  for (const double restitution : {0.8, 0.9, 1.0}) {
+    for (const bool wall : {true, false}) {
+      mesh::BlockMesh<3> mesh;
+      add_box(mesh, {0.1, 0.2, 0.4}, {-0.05, 0, 0}, wall);
+      add_box(mesh, {0.1, 0.1, 0.1}, {0.051, 0, 0}, false, {10, 0, 0});
+      add_box(mesh, {0.1, 0.1, 0.1}, {0.161, 0, 0}, false, {-10, 0, 0});
+      SettleOptions options = for_time(2.5 / 240);
+      options.gravity.setZero();
+      options.frame_interval = options.step;
+      std::vector<Vector3d> at;
+      settle(mesh, material(0, restitution), options, [&](double, const Table<BlockId, Pose>& poses) {
+        const auto x = [&](std::size_t block) { return poses[BlockId{block}].translation.x(); };
+        at.emplace_back(x(0), x(1), x(2));
+      });
+      ASSERT_GE(at.size(), 2u);
+      const Vector3d speeds = (at[1] - at[0]) / options.step;
+      EXPECT_NEAR(speeds[2], 10 * restitution, 0.01) << wall;
+      EXPECT_LE(speeds.cwiseAbs2().dot(Vector3d(8, 1, 1)), 200.01) << restitution << wall;
+    }
   }
 }
 
