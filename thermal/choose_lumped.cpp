@@ -12,7 +12,7 @@
 #include "thermal/contact_conduction.h"
 #include "thermal/exchange.h"
 #include "thermal/inner_resistance.h"
-#include "thermal/least_conductivity.h"
+#include "thermal/least_value.h"
 #include "thermal/problems.h"
 
 namespace scree::thermal {
@@ -220,7 +220,7 @@ class Chooser {
     for (const MaterialId material : materials_.ids()) {
       const auto& conductivity = materials_[material].conductivity;
       const Curve value = conductivity ? conductivity->value : Curve(std::numeric_limits<double>::infinity());
-      conductivities_.push_back({value, least_conductivity(value, range)});
+      conductivities_.push_back({value, least_value(value, range)});
     }
   }
 

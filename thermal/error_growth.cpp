@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/check.h"
 #include "engine/base/phases.h"
 #include "thermal/heat_balance.h"
+#include "thermal/least_value.h"
 
 namespace scree::thermal {
 
@@ -16,15 +16,6 @@ constexpr int looks = 256;
 // What a capacity may be above its least before errors count for more, as a part of that. Errors of a body that can lose none
 // need the room, and its temperatures mostly do not come back to where c was less.
 constexpr double mild = 0.5;
-
-// [J/kg/K]; infinite where a formula has no value, as where no node comes.
-double specific_heat(const Curve& curve, double temperature) {
-  try {
-    return curve(temperature);
-  } catch (const InputError&) {
-    return std::numeric_limits<double>::infinity();
-  }
-}
 
 }  // namespace
 
@@ -37,16 +28,10 @@ ErrorGrowth::ErrorGrowth(const HeatModel& model) : model_(model) {
 
 bool ErrorGrowth::include(const TemperatureRange& range) {
   if (!varies_ || (range.least >= range_.least && range.largest <= range_.largest)) return false;
-  range_.least = std::min(range_.least, range.least);
-  range_.largest = std::max(range_.largest, range.largest);
+  range_.include(range);
   for (std::size_t material = 0; material < least_.size(); ++material) {
-    const Curve& curve = model_.varying->specific_heat[material];
     // Anew, so that a run that goes on from a state knows what an uninterrupted one does.
-    least_[material] = std::numeric_limits<double>::infinity();
-    for (int look = 0; look <= looks; ++look) {
-      const double at = range_.least + (range_.largest - range_.least) * look / looks;
-      least_[material] = std::min(least_[material], specific_heat(curve, at));
-    }
+    least_[material] = least_value(model_.varying->specific_heat[material], range_, looks);
   }
   return true;
 }

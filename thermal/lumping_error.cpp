@@ -9,7 +9,7 @@
 #include "engine/base/check.h"
 #include "thermal/exchange.h"
 #include "thermal/kirchhoff_matrix.h"
-#include "thermal/least_conductivity.h"
+#include "thermal/least_value.h"
 
 namespace scree::thermal {
 
@@ -124,7 +124,7 @@ void LumpingEstimate::include(const TemperatureRange& range) {
   for (const MaterialId material : harder_.ids()) {
     const LumpedConductivity& conductivity = model_.lumped->conductivities()[material];
     if (!conductivity.value.constant())
-      harder_[material] = std::max(1.0, conductivity.least / least_conductivity(conductivity.value, range));
+      harder_[material] = std::max(1.0, conductivity.least / least_value(conductivity.value, range));
   }
 }
 

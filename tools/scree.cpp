@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -229,15 +230,13 @@ void declare(CLI::App& app, Arguments& arguments) {
   declare_reference(app, arguments);
 }
 
-// What was asked for by --help and --version, or what is wrong with the command.
-int said_by(const CLI::App& app, const CLI::ParseError& error) {
-  if (app.exit(error) != 0) return 2;
+// The exit status, if nothing is left to be done: --help or --version, or something is wrong with the command.
+std::optional<int> end_of_parsing(CLI::App& app, int argc, char** argv) {
   try {
-    flush_output();
-    return 0;
-  } catch (const scree::RunError& failure) {
-    fmt::print(stderr, "scree: {}\n", failure.what());
-    return 1;
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   }
 }
 
@@ -247,12 +246,10 @@ int command(int argc, char** argv) {
   declare(app, arguments);
   scree::command_line::expect_values(app);
   try {
-    app.parse(argc, argv);
-    const int status = dispatch(app, arguments);
+    const std::optional<int> end = end_of_parsing(app, argc, argv);
+    const int status = end ? *end : dispatch(app, arguments);
     flush_output();
     return status;
-  } catch (const CLI::ParseError& error) {
-    return said_by(app, error);
   } catch (const scree::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

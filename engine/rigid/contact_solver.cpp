@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
 
 #include "engine/base/phases.h"
 #include "engine/rigid/fetch.h"
@@ -141,9 +140,16 @@ void ContactSolver::set_up(Motions motions, Contacts contacts, const StepLengths
 }
 
 void ContactSolver::solve_rows(int iterations) {
-  const auto part = [&](std::size_t begin, std::size_t end) { return std::span(rows_).subspan(begin, end - begin); };
-  for_batches(batches_, 1, [&](std::size_t begin, std::size_t end) { apply_impulses(part(begin, end), changes_); });
-  for_batches(batches_, iterations, [&](std::size_t begin, std::size_t end) { solve_contacts(part(begin, end), changes_); });
+  for_batches(batches_, 1, [&](std::size_t begin, std::size_t end) {
+    apply_impulses(std::span(rows_).subspan(begin, end - begin), changes_);
+  });
+  iterate(iterations);
+}
+
+void ContactSolver::iterate(int iterations) {
+  for_batches(batches_, iterations, [&](std::size_t begin, std::size_t end) {
+    solve_contacts(std::span(rows_).subspan(begin, end - begin), changes_);
+  });
 }
 
 // Summed in one order, whatever the number of threads.
@@ -168,15 +174,14 @@ bool ContactSolver::bodies_gain_energy(const std::vector<btRigidBody*>& bodies) 
 // again.
 void ContactSolver::solve_by_impulses(int iterations) {
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].normal.wanted -= rebounds_[i];
-  const auto part = [](auto& all, std::size_t begin, std::size_t end) { return std::span(all).subspan(begin, end - begin); };
-  for_batches(batches_, iterations,
-              [&](std::size_t begin, std::size_t end) { solve_contacts(part(rows_, begin, end), changes_); });
+  iterate(iterations);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& normal = rows_[i].normal;
     rebounds_[i] = rebounds_[i] > 0 ? (1 + rebounds_[i] / normal.wanted) * normal.applied : 0;
   }
   for_batches(batches_, iterations, [&](std::size_t begin, std::size_t end) {
-    solve_contacts(part(rows_, begin, end), part(std::as_const(rebounds_), begin, end), changes_);
+    const std::span<const double> least(rebounds_);
+    solve_contacts(std::span(rows_).subspan(begin, end - begin), least.subspan(begin, end - begin), changes_);
   });
 }
 

@@ -59,6 +59,7 @@ class ContactSolver {
   bool order_rows(int slabs);
   void set_up(Motions motions, Contacts contacts, const StepLengths& step);
   void solve_rows(int iterations);
+  void iterate(int iterations);
   // By what the rows give them.
   [[nodiscard]] bool bodies_gain_energy(const std::vector<btRigidBody*>& bodies) const;
   void solve_by_impulses(int iterations);
