@@ -30,6 +30,19 @@ void expect_mesh_format(const std::filesystem::path& path) {
   if (start != expected) throw std::runtime_error("it does not begin with $MeshFormat");
 }
 
+// A vertex that is no number ends Gmsh by an assertion. Of a binary file, which has no such lines, Gmsh hands it on.
+void expect_numbers(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    const std::size_t word = line.find_first_not_of(" \t");
+    if (word == std::string::npos || line.compare(word, 6, "vertex") != 0) continue;
+    std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (line.find("nan", word + 6) == std::string::npos) continue;
+    throw std::runtime_error(fmt::format("a coordinate in its line {} is no number", number));
+  }
+}
+
 RawMesh read_by_gmsh(const std::filesystem::path& path, const std::string& extension) {
   const ScratchFolder folder;
   const std::filesystem::path shown = folder.path() / ("mesh" + extension);
@@ -44,7 +57,10 @@ RawMesh read_by_gmsh(const std::filesystem::path& path, const std::string& exten
 
 MeshReaders all_readers(const MeshReaders& more) {
   MeshReaders readers = more;
-  readers[".stl"] = [](const std::filesystem::path& path) { return read_by_gmsh(path, ".stl"); };
+  readers[".stl"] = [](const std::filesystem::path& path) {
+    expect_numbers(path);
+    return read_by_gmsh(path, ".stl");
+  };
   readers[".msh"] = [](const std::filesystem::path& path) {
     expect_mesh_format(path);
     return read_by_gmsh(path, ".msh");

@@ -11,8 +11,10 @@
 namespace scree::output {
 
 std::vector<SeriesEntry> read_index(const std::filesystem::path& index) {
-  if (!std::filesystem::is_regular_file(index))
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(index, ignored)) {
     throw RunError(fmt::format("{}: there is no such series of frames", index.string()));
+  }
   boost::property_tree::ptree root;
   try {
     boost::property_tree::read_xml(index.string(), root);
@@ -26,7 +28,7 @@ std::vector<SeriesEntry> read_index(const std::filesystem::path& index) {
     if (name != "DataSet") continue;
     const auto time = plain_number(frame.get("<xmlattr>.timestep", std::string()));
     const auto file = frame.get_optional<std::string>("<xmlattr>.file");
-    if (!time || !file || !std::filesystem::is_regular_file(index.parent_path() / *file)) {
+    if (!time || !file || !std::filesystem::is_regular_file(index.parent_path() / *file, ignored)) {
       throw RunError(fmt::format("{}: names a frame that is missing ({})", index.string(), file.value_or("no name")));
     }
     entries.push_back({*time, *file});

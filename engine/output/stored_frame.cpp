@@ -48,11 +48,13 @@ Problem StoredField::problem(const std::string& value, const std::string& rule, 
 }
 
 std::filesystem::path stored_frame(const StoredField& stored) {
-  if (std::filesystem::is_directory(stored.from)) return frame_of(stored, stored.from / "heat.pvd");
+  std::error_code ignored;  // what cannot be asked for is not there
+  if (std::filesystem::is_directory(stored.from, ignored)) return frame_of(stored, stored.from / "heat.pvd");
   if (stored.from.extension() == ".pvd") return frame_of(stored, stored.from);
   if (stored.time) throw InputError(stored.problem(stored.from.string(), "is a single frame", "Leave heat.initial.time out"));
-  if (!std::filesystem::is_regular_file(stored.from))
+  if (!std::filesystem::is_regular_file(stored.from, ignored)) {
     throw InputError(stored.problem(stored.from.string(), "must be there", name_a_run));
+  }
   return stored.from;
 }
 

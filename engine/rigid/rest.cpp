@@ -18,6 +18,10 @@ double kinetic_energy(const btRigidBody& body, double mass) {
   return energy;
 }
 
+double AllowedWay::operator()(const World& world, BlockId block) const {
+  return part_ * std::min(mean_edge_, 2 * world.radius(block));
+}
+
 Motion observe_motion(const World& world, const Damping& damping, double time_step) {
   Motion motion;
   double energy = 0;
@@ -42,8 +46,8 @@ Motion observe_motion(const World& world, const Damping& damping, double time_st
 RestWatch::RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time)
     : rest_speed_(options.rest_speed),
       rest_unbalanced_(options.rest_unbalanced_force),
-      allowed_displacement_(options.rest_displacement * mean_edge),
-      rest_window_(options.rest_window) {
+      rest_window_(options.rest_window),
+      allowed_(options.rest_displacement, mean_edge) {
   begin(world, time);
 }
 
@@ -54,6 +58,7 @@ void RestWatch::begin(const World& world, double time) {
   poses_.clear();
   for (const btRigidBody* body : world.free_bodies()) poses_.push_back(body->getWorldTransform());
   way_ = 0;
+  furthest_ = {};
 }
 
 bool RestWatch::quiet() const {
@@ -63,9 +68,9 @@ bool RestWatch::quiet() const {
 void RestWatch::look_for_ways(const World& world) {
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const double way = way_moved(poses_[i], world.free_bodies()[i]->getWorldTransform(), world.radius(blocks_[i]));
-    if (way <= way_) continue;
-    way_ = way;
-    furthest_ = blocks_[i];
+    way_ = std::max(way_, way);
+    const double over_allowed = way / allowed_(world, blocks_[i]);
+    if (over_allowed > furthest_.over_allowed) furthest_ = {blocks_[i], way, over_allowed};
   }
 }
 
@@ -80,8 +85,9 @@ bool RestWatch::observe(const World& world, const Motion& motion, double time) {
   window_ = time - since_;
   displacement_ = way_;
   last_ = largest_;
+  last_furthest_ = furthest_;
   lost_some_ = !same_blocks;
-  const bool rest = quiet() && same_blocks && displacement_ < allowed_displacement_;
+  const bool rest = quiet() && same_blocks && furthest_.over_allowed < 1;
   begin(world, time);
   return rest;
 }
@@ -89,16 +95,19 @@ bool RestWatch::observe(const World& world, const Motion& motion, double time) {
 std::string RestWatch::criterion() const {
   return fmt::format(
       "in every step of a window of {:g} s the root mean square speed is below {:g} m/s and the unbalanced force (mean net "
-      "force on "
-      "a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m in it",
-      rest_window_, rest_speed_, rest_unbalanced_, allowed_displacement_);
+      "force on a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m "
+      "in "
+      "it, nor more than {:g} of the block's width",
+      rest_window_, rest_speed_, rest_unbalanced_, allowed_.largest(), allowed_.part());
 }
 
 std::string RestWatch::obstacle() const {
   if (window_ == 0) return "no whole window has passed";
   std::string text = fmt::format("in the last whole window the speed reached {:.3g} m/s, the unbalanced force {:.3g}",
                                  last_.rms_speed, last_.unbalanced);
-  if (displacement_ > 0) text += fmt::format(", a point of block {} moved {:.3g} m", furthest_.value(), displacement_);
+  if (last_furthest_.way > 0) {
+    text += fmt::format(", a point of block {} moved {:.3g} m", last_furthest_.block.value(), last_furthest_.way);
+  }
   if (lost_some_) text += ", a block left the scene";
   return text;
 }

@@ -6,7 +6,6 @@
 
 #include "engine/base/phases.h"
 #include "engine/rigid/homes.h"
-#include "engine/rigid/rest.h"
 
 namespace scree::rigid {
 
@@ -23,7 +22,7 @@ constexpr double worth_sleeping = 0.05;
 RestingGroups::RestingGroups(const World& world, const SettleOptions& options, double mean_edge, double time)
     : speed_(part * options.rest_speed),
       force_over_weight_(part * options.rest_unbalanced_force),
-      displacement_(part * options.rest_displacement * mean_edge),
+      allowed_(part * options.rest_displacement, mean_edge),
       window_(options.rest_window),
       gravity_(options.gravity.norm()),
       records_(world.block_count()) {
@@ -67,7 +66,7 @@ bool RestingGroups::at_rest(const World& world, const std::vector<BlockId>& grou
   double energy = 0, force = 0, mass = 0;
   for (const BlockId block : group) {
     const Record& record = records_[block];
-    if (record.steps < steps_ || record.way > displacement_) return false;
+    if (record.steps < steps_ || record.way > allowed_(world, block)) return false;
     energy += record.energy;
     force += record.force;
     mass += world.mass(block);

@@ -15,6 +15,7 @@
 #include <LinearMath/btTransform.h>
 
 #include "engine/rigid/damping.h"
+#include "engine/rigid/rest.h"
 
 namespace scree::rigid {
 
@@ -36,7 +37,9 @@ class RestingGroups {
   void begin(const World& world, double time);
   [[nodiscard]] bool at_rest(const World& world, const std::vector<BlockId>& group) const;
 
-  double speed_, force_over_weight_, displacement_, window_, gravity_;
+  double speed_, force_over_weight_;
+  AllowedWay allowed_;
+  double window_, gravity_;
   double since_ = 0;
   int steps_ = 0;                   // of the window; 0 before the first one
   Table<BlockId, Record> records_;  // of the window

@@ -23,7 +23,7 @@ struct SettleOptions {
   double release_time = 0;
   double rest_speed = 1e-3;             // root mean square speed below which a pile may be at rest [m/s]
   double rest_unbalanced_force = 0.05;  // largest accepted unbalanced force [-]
-  double rest_displacement = 0.01;      // largest accepted way of any block in a window, over the mean edge [-]
+  double rest_displacement = 0.01;      // largest accepted way of any block in a window, over the mean edge or its width [-]
   double rest_window = 0.25;            // all three must hold for this long [s]
   // Blocks come to rest this far apart [m]: above what is left of overlaps, no two of them overlap. 0: they touch.
   double clearance = 0;

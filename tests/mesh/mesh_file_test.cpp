@@ -164,6 +164,8 @@ TEST_F(MeshFiles, ADamagedFileIsRefusedWhereverItEnds) {
   }
   EXPECT_THAT(refusal("cut.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"),
               StartsWith("(must be a whole .stl mesh; it cannot be read"));
+  EXPECT_THAT(refusal("nan.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 -NaN 0\nvertex 1 0 0\nvertex 0 1 0\n"),
+              StartsWith("(must be a whole .stl mesh; it cannot be read: a coordinate in its line 4 is no number)"));
 }
 
 TEST_F(MeshFiles, AnEmptyMeshIsRefused) {

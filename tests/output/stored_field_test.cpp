@@ -199,6 +199,7 @@ TEST(StoredField, WhatCannotBeReadIsSaidWithItsPlace) {
   EXPECT_THAT(wrong_with(stored, mesh), HasSubstr("has no frame at 30 s; the nearest is at "));
   EXPECT_THAT(wrong_with({folder() / "nothing", {}}, mesh), HasSubstr("Name the output directory"));
   EXPECT_THAT(wrong_with({folder() / "heat" / "heat_000000.vtu", 0.0}, mesh), HasSubstr("is a single frame"));
+  EXPECT_THAT(wrong_with({std::string(5000, 'n'), {}}, mesh), HasSubstr("heat.initial.from is nnnn"));
 }
 
 }  // namespace

@@ -27,6 +27,22 @@ TEST(Rest, AStoneThatIsBackWhereItWasAfterAWindowHasMoved) {
   EXPECT_NE(report.criterion.find("a point of block 2 moved"), std::string::npos) << report.criterion;
 }
 
+// 1.25 mm in a window: little for a boulder, and nothing in the mean over masses.
+TEST(Rest, APebbleThatSlidesOnBesideABoulderHasMovedByItsOwnMeasure) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+  add_box(mesh, {1, 1, 1}, {0, 0, 0.5}, false);
+  add_box(mesh, {0.003, 0.003, 0.003}, {1, 0, 0.0015}, false, {0, 0.005, 0});
+  SettleOptions options;
+  options.limit = 1;
+  const packing::Packing<3> packing = settle(mesh, testing::material(0), options);
+  const packing::SettleReport& report = *packing.settled;
+  EXPECT_LT(report.rms_speed, options.rest_speed);
+  EXPECT_NEAR(report.max_displacement, 0.005 * report.window, 1e-5);
+  EXPECT_FALSE(report.at_rest);
+  EXPECT_NE(report.criterion.find("a point of block 2 moved"), std::string::npos) << report.criterion;
+}
+
 // Corners are rounded there by 1e-9 m, and edges that are parallel cross at a small angle.
 TEST(Rest, OfCubesThatStandFlushIsTheSameAtSurveyCoordinates) {
   mesh::BlockMesh<3> mesh;

@@ -209,8 +209,8 @@ Keys settle_keys() {
       row("settle.rest_unbalanced_force", quantity,
           "Largest mean net force on a block over the mean force of a touching pair at rest.", q::number, positive)
           .fallback(fmt::format("{}", by_default.rest_unbalanced_force)),
-      row("settle.rest_displacement", quantity, "Largest way of a block in a window, over the mean edge, at rest.", q::number,
-          positive)
+      row("settle.rest_displacement", quantity,
+          "Largest way of a block in a window, over the mean edge or its own width, at rest.", q::number, positive)
           .fallback(fmt::format("{}", by_default.rest_displacement)),
       row("settle.rest_window", quantity, "All three must hold for this long.", q::time, positive)
           .fallback(with_unit(by_default.rest_window, "s")),
