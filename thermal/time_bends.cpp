@@ -142,6 +142,7 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
       jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
       return;
     }
+    may_jump_anywhere_ = may_jump_anywhere_ || function.may_jump();
     const Eigen::Matrix3Xd places = places_of();
     const Eigen::Index count = std::min(places.cols(), most_places);
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -160,7 +161,8 @@ std::size_t TimeBends::most_between(double begin, double end) const {
 }
 
 bool TimeBends::any_between(double begin, double end) const {
-  return std::any_of(tables_.begin(), tables_.end(),
+  return may_jump_anywhere_ ||
+         std::any_of(tables_.begin(), tables_.end(),
                      [&](const Function* table) { return table->bends_between(begin, end).value_or(0) > 0; }) ||
          std::any_of(seen_.begin(), seen_.end(),
                      [&](const Seen& seen) { return count_between(seen.times, begin - seen.step, end + seen.step) > 0; });

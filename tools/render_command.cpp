@@ -13,6 +13,7 @@
 #include "engine/output/render.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/output_place.h"
+#include "tools/run/run_files.h"
 
 namespace scree {
 
@@ -171,7 +172,7 @@ int render_command(const RenderArguments& arguments) {
   picture.lines = arguments.lines;
   if (!arguments.animation.empty()) return animate(arguments, picture);
   const std::filesystem::path png =
-      arguments.picture.empty() ? directory / (arguments.series + ".png") : std::filesystem::path(arguments.picture);
+      arguments.picture.empty() ? run::RunFiles{directory}.picture(arguments.series) : std::filesystem::path(arguments.picture);
   run::check_output_place("--picture", png, {".png"});
   const double drawn = output::render(picture, png);
   if (picture.time && *picture.time != drawn) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/check.h"
 #include "engine/base/check_values.h"
 #include "engine/base/checked_input.h"
 #include "engine/base/nearest.h"
@@ -21,6 +22,14 @@ std::string how_many(std::size_t items) {
 
 std::string joined(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
+}
+
+// The table's order, so that equal scenes give equal effective scenes.
+void sort_entries(const KeyNode& node, std::vector<CheckedEntry>& entries) {
+  const std::vector<std::string> names = node.names();
+  const auto rank = [&](const CheckedEntry& entry) { return std::find(names.begin(), names.end(), entry.name); };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const CheckedEntry& a, const CheckedEntry& b) { return rank(a) < rank(b); });
 }
 
 class Checker {
@@ -73,7 +82,7 @@ class Checker {
     for (const auto& [name, child] : node.children) {
       if (name != "*") fill_in(value, name, *child, checked);
     }
-    sort_entries(node, checked);
+    sort_entries(node, checked.entries);
   }
 
   // A map of the keys below, where names the user chooses could stand as well.
@@ -81,14 +90,6 @@ class Checker {
     if (node.children.size() == 1 || value.entries.empty()) return false;
     return std::all_of(value.entries.begin(), value.entries.end(),
                        [&](const InputEntry& entry) { return entry.name != "*" && node.find(entry.name) != nullptr; });
-  }
-
-  // The table's order, so that equal scenes give equal effective scenes.
-  static void sort_entries(const KeyNode& node, Checked& checked) {
-    const std::vector<std::string> names = node.names();
-    const auto rank = [&](const CheckedEntry& entry) { return std::find(names.begin(), names.end(), entry.name); };
-    std::stable_sort(checked.entries.begin(), checked.entries.end(),
-                     [&](const CheckedEntry& a, const CheckedEntry& b) { return rank(a) < rank(b); });
   }
 
   void check_names(const InputValue& value, const KeyNode& any, Checked& checked) {
@@ -117,6 +118,7 @@ class Checker {
     if (unmet != nullptr) {
       problems_.push_back(
           {entry.where, path, "without use", fmt::format("of use only {}", words(*unmet, path)), "Take it out"});
+      return;
     }
     checked.entries.push_back({entry.name, entry.where, check(entry.value, *child, path)});
   }
@@ -251,6 +253,16 @@ Eigen::Vector3d Checked::vector() const {
 
 Problem Checked::problem(std::string value, std::string rule, std::string suggestion) const {
   return {where, path.empty() ? "the file" : path, std::move(value), std::move(rule), std::move(suggestion)};
+}
+
+void add_entries(Checked& map, const KeyTable& table, std::vector<CheckedEntry> more) {
+  const KeyNode* node = &table.root();
+  for (const std::string& part : split_path(map.path)) {
+    node = node->find(part);
+    SCREE_EXPECT(node != nullptr);
+  }
+  for (CheckedEntry& entry : more) map.entries.push_back(std::move(entry));
+  sort_entries(*node, map.entries);
 }
 
 Checked check_input(const InputValue& input, const KeyTable& table, int dimension, std::vector<Problem>& problems) {

@@ -49,6 +49,9 @@ struct CheckedEntry {
 // Holds `input` against the keys of the table and appends what is wrong to `problems`. `dimension` is the length of a vector.
 Checked check_input(const InputValue& input, const KeyTable& table, int dimension, std::vector<Problem>& problems);
 
+// Adds what was left out to a map of keys with fixed names, such as output, each in its place in the table.
+void add_entries(Checked& map, const KeyTable& table, std::vector<CheckedEntry> more);
+
 // The checked input as YAML with every default in it. Values stand as they were written; paths as `text` says.
 std::string to_yaml(const Checked& checked);
 

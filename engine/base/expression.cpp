@@ -24,6 +24,7 @@ struct Expression::Parser {
   mu::Parser formula;
   std::vector<double> values;  // of the variables; the formula holds their addresses
   std::vector<std::string> used;
+  bool may_jump = false;
   std::mutex turn;
 };
 
@@ -93,6 +94,12 @@ void refuse_assignment(const std::string& text) {
   }
 }
 
+// By muParser's operators and functions; division by zero is no value.
+bool holds_a_jump(const std::string& text) {
+  const bool compares = text.find_first_of("<>=?&|") != std::string::npos;  // with != and :, too
+  return compares || text.find("sign") != std::string::npos || text.find("rint") != std::string::npos;
+}
+
 // What solutions of the heat equation are made of, and muParser lacks.
 double error_function(double x) {
   return std::erf(x);
@@ -112,6 +119,7 @@ Expression::Parser::Parser(const std::string& text, const std::vector<std::strin
     for (std::size_t i = 0; i < variables.size(); ++i) formula.DefineVar(variables[i], &values[i]);
     formula.SetExpr(text);
     for (const auto& entry : formula.GetUsedVar()) used.push_back(entry.first);
+    may_jump = holds_a_jump(text);
     formula.Eval();
   } catch (const mu::ParserError& error) {
     throw explain(error, formula, text, variables);
@@ -136,6 +144,10 @@ double Expression::operator()(std::span<const double> values) const {
   const std::lock_guard lock(parser_->turn);
   std::copy(values.begin(), values.end(), parser_->values.begin());
   return parser_->formula.Eval();
+}
+
+bool Expression::may_jump() const {
+  return parser_->may_jump;
 }
 
 bool Expression::uses(const std::string& variable) const {

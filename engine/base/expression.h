@@ -34,6 +34,9 @@ class Expression {
   // Whether the value depends on this variable as far as the text tells.
   [[nodiscard]] bool uses(const std::string& variable) const;
 
+  // Whether it compares, chooses or rounds: only then may its value jump.
+  [[nodiscard]] bool may_jump() const;
+
  private:
   struct Parser;
   std::shared_ptr<Parser> parser_;

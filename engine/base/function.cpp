@@ -19,6 +19,7 @@ struct Function::Form {
 
   [[nodiscard]] virtual double value(const Eigen::Vector3d& place, double time) const = 0;
   [[nodiscard]] virtual bool varies(char argument) const = 0;  // x, y, z or t
+  [[nodiscard]] virtual bool may_jump() const { return false; }
   virtual void check_time(double begin, double end) const = 0;
   [[nodiscard]] virtual std::optional<std::size_t> bends_between(double begin, double end) const = 0;
 
@@ -46,6 +47,7 @@ class Formula : public Function::Form {
     return result;
   }
   [[nodiscard]] bool varies(char argument) const override { return expression_.uses(std::string(1, argument)); }
+  [[nodiscard]] bool may_jump() const override { return expression_.may_jump(); }
   void check_time(double /*begin*/, double /*end*/) const override {}
   [[nodiscard]] std::optional<std::size_t> bends_between(double /*begin*/, double /*end*/) const override {
     return varies('t') ? std::nullopt : std::optional<std::size_t>(0);
@@ -135,6 +137,10 @@ bool Function::varies_in_time() const {
 
 bool Function::varies_in_place() const {
   return form_ && (form_->varies('x') || form_->varies('y') || form_->varies('z'));
+}
+
+bool Function::may_jump() const {
+  return form_ && form_->may_jump();
 }
 
 std::optional<double> Function::constant() const {

@@ -36,6 +36,9 @@ class Function {
   [[nodiscard]] bool varies_in_place() const;
   [[nodiscard]] std::optional<double> constant() const;
 
+  // Whether its value may jump, in place or in time: a table's does not.
+  [[nodiscard]] bool may_jump() const;
+
   // How often a table over time may bend between two times; 0 for what does not change in time. Of a formula nothing: only its
   // values tell.
   [[nodiscard]] std::optional<std::size_t> bends_between(double begin, double end) const;

@@ -99,7 +99,9 @@ void Progress::update(double fraction, const std::string& text) {
 
 void Progress::finish(const std::string& text) {
   if (mode_ == ProgressMode::json) return tell_finish(text);
-  print(fmt::format("{}: done in {}{}{}", stage_, format_duration(clock_() - started_), text.empty() ? "" : ", ", text));
+  const double seconds = clock_() - started_;
+  const std::string taken = seconds < 10 ? fmt::format("{:.2f} s", seconds) : format_duration(seconds);
+  print(fmt::format("{}: done in {}{}{}", stage_, taken, text.empty() ? "" : ", ", text));
 }
 
 void Progress::note(const std::string& text) {

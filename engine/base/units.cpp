@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -171,16 +174,35 @@ std::optional<Number> leading_number(std::string_view text) {
   return number;
 }
 
-// What is probably meant by a unit of another quantity.
-std::string likely_unit(std::string_view unit, const Quantity& quantity) {
+bool measures(std::string_view unit, const Quantity& quantity) {
+  const Unit parsed = parse_unit(unit);
+  return parsed && converter_to(quantity, parsed.get());
+}
+
+// How the unit might have been spelt: 60 mins, 10 Min, 0.88 kJ/kgK, 3.1 W/m K, 3.1 W/m.
+std::vector<std::string> respelt(std::string_view unit) {
+  std::vector<std::string> spellings;
+  if (unit.ends_with('s')) spellings.emplace_back(unit.substr(0, unit.size() - 1));
+  std::string small(unit);
+  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+  spellings.push_back(small);
+  if (unit.ends_with('K')) unit = unit.substr(0, unit.find_last_not_of(" .*K") + 1);
+  spellings.push_back(fmt::format("{}/K", unit));
+  return spellings;
+}
+
+// The unit of this quantity that is probably meant, if it is clear; behind the same number any other would be another value.
+std::optional<std::string> likely_unit(std::string_view unit, const Quantity& quantity) {
   const bool warm = quantity.kind != Quantity::Kind::scale;
   // However its degrees are written: C, deg C, oC.
-  if (warm && (unit.ends_with('C') || unit == "c" || unit.ends_with("elsius"))) return "degC";
+  if (warm && (unit.ends_with('C') || unit == "c" || unit == "deg" || unit.ends_with("elsius"))) return "degC";
   if (warm && (unit.ends_with('F') || unit == "f" || unit.ends_with("ahrenheit"))) return "degF";
   if (quantity.unit == "s" && unit == "m") return "min";
-  if (quantity.unit == "s" && (unit == "H" || unit == "D")) return unit == "H" ? "h" : "d";
   if (quantity.unit == "m" && unit == "M") return "m";
-  return std::string(quantity.unit);
+  for (const std::string& spelling : respelt(unit)) {
+    if (measures(spelling, quantity)) return spelling;
+  }
+  return std::nullopt;
 }
 
 UnitProblem wrong_unit(std::string_view number, std::string_view unit, const Quantity& quantity, bool known) {
@@ -191,8 +213,16 @@ UnitProblem wrong_unit(std::string_view number, std::string_view unit, const Qua
     return problem;
   }
   problem.reason = known ? fmt::format("{} is no unit of {}", unit, quantity.name) : fmt::format("{} is no known unit", unit);
-  problem.suggestion = fmt::format("Did you mean {}{}{}?", number, number.empty() ? "" : " ", likely_unit(unit, quantity));
+  const std::optional<std::string> likely = likely_unit(unit, quantity);
+  problem.suggestion = likely ? fmt::format("Did you mean {}{}{}?", number, number.empty() ? "" : " ", *likely)
+                              : fmt::format("Write it in {} or another unit of {}", quantity.unit, quantity.name);
   return problem;
+}
+
+// Behind a number in the text of a quantity: what begins so makes no number of it, as in 1:30, 2*60 s and 2_500.
+bool may_be_unit(std::string_view rest) {
+  constexpr std::string_view never = ",:*_+-";
+  return never.find(rest.front()) == std::string_view::npos;
 }
 
 }  // namespace
@@ -206,6 +236,10 @@ std::variant<double, UnitProblem> parse_quantity(std::string_view text, const Qu
   if (!number->value) return UnitProblem{"too large or too small for a number in double precision", ""};
   if (number->rest.empty()) return *number->value;
 
+  if (!may_be_unit(number->rest)) {
+    return UnitProblem{"not a number",
+                       number->rest.starts_with(',') ? "Write decimals with a point" : "Write it as one number"};
+  }
   const std::string_view digits = trimmed(text.substr(0, text.size() - number->rest.size()));
   const Unit unit = parse_unit(number->rest);
   if (!unit) return wrong_unit(digits, number->rest, quantity, false);

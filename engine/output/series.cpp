@@ -27,7 +27,10 @@ void remove_frames(const fs::path& folder, const std::string& name, const std::s
 
 void remove_series(const fs::path& directory, const std::string& name) {
   fs::remove(directory / (name + ".pvd"));
-  if (fs::is_directory(directory / name)) remove_frames(directory / name, name, {});
+  if (!fs::is_directory(directory / name)) return;
+  remove_frames(directory / name, name, {});
+  std::error_code not_empty;
+  fs::remove(directory / name, not_empty);
 }
 
 Series::Series(fs::path directory, std::string name, std::optional<double> keep_until)

@@ -20,13 +20,18 @@ double height(const Column& column) {
   return column.top ? *column.top - column.floor : 0;
 }
 
-// Does a fixed block stand beside the pile, higher than one block above the pile's floor there?
+// Does a fixed block stand beside the pile, higher than one block above the pile's floor there? One that begins above the pile,
+// such as the hopper it was poured from, holds nothing.
 bool held_by_walls(const Columns& columns) {
   for (std::size_t i = 0; i < columns.lines.size(); ++i) {
-    if (!columns.lines[i].top) continue;
+    const Column& column = columns.lines[i];
+    if (!column.top) continue;
+    const auto holds = [&](const Interval& fixed) {
+      return fixed.high > column.floor + columns.size && fixed.low < *column.top;
+    };
     for (const std::size_t near : columns.near(i, columns.size)) {
       const auto& fixed = columns.lines[near].fixed;
-      if (!fixed.empty() && fixed.back().high > columns.lines[i].floor + columns.size) return true;
+      if (std::any_of(fixed.begin(), fixed.end(), holds)) return true;
     }
   }
   return false;

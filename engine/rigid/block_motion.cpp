@@ -1,5 +1,7 @@
 #include "engine/rigid/block_motion.h"
 
+#include <LinearMath/btTransformUtil.h>
+
 namespace scree::rigid {
 
 namespace {
@@ -27,6 +29,14 @@ void place(const BlockMotion& block, packing::PlacedPiece& placed) {
 const packing::PlacedPiece& placed(const Side& side, packing::PlacedPiece& memory) {
   if (side.piece == nullptr) return *side.block->placed;
   place(*side.piece, side.block->pose, memory);
+  return memory;
+}
+
+const packing::PlacedPiece& placed_after(const Side& side, double time, packing::PlacedPiece& memory) {
+  const BlockMotion& block = *side.block;
+  btTransform pose;
+  btTransformUtil::integrateTransform(block.pose, block.velocity, block.body->getAngularVelocity(), time, pose);
+  packing::place(side.shape(), from_bullet(pose.getBasis()), from_bullet(pose.getOrigin()), memory);
   return memory;
 }
 

@@ -40,6 +40,9 @@ inline Side whole(const BlockMotion& block) {
 // `memory` is for a piece of several.
 const packing::PlacedPiece& placed(const Side& side, packing::PlacedPiece& memory);
 
+// The same where it is after `time` [s], if nothing meets it before.
+const packing::PlacedPiece& placed_after(const Side& side, double time, packing::PlacedPiece& memory);
+
 // No two points approach each other faster than this [m/s].
 double fastest_approach(const Side& first, const Side& second);
 

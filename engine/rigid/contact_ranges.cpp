@@ -38,8 +38,13 @@ ContactRanges ranges_for(const mesh::BlockMesh<3>& mesh, const SettleOptions& op
   // What gravity adds to a block's way within a step is looked for beside it where it is worth looking at.
   const double fall = options.gravity.norm() * options.step * options.step;
   const double fall_seen = fall > worth_seeing * scale ? fall : 0;
-  return {
-      0.01 * scale + options.clearance + fall_seen, 0.008 * scale, 2e-3 * scale, bounce_speed, 6e-4 * scale, options.clearance};
+  return {.near = 0.01 * scale + options.clearance + fall_seen,
+          .face_bias = 0.008 * scale,
+          .still = 2e-3 * scale,
+          .bounce_speed = bounce_speed,
+          .home = 6e-4 * scale,
+          .clearance = options.clearance,
+          .fall = fall};
 }
 
 }  // namespace scree::rigid

@@ -14,6 +14,7 @@ struct ContactRanges {
   double bounce_speed = 0;  // an approach slower than this has no restitution [m/s]
   double home = 0;          // range of Homes [m]
   double clearance = 0;     // at which two blocks touch [m]
+  double fall = 0;          // what gravity adds to a block's way within a step [m]
 };
 
 // Cube root of its volume [m].

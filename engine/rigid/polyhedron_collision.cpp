@@ -142,8 +142,49 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
     if (none && separation_.distance > -ranges_.near) return {};
     if (!none) separation_ = real;
   }
-  const ContactPoints points = points_at(pair, a, b, separation_, pair.reach);
-  return points.count == 0 && separation_.distance > ranges_.clearance ? met_on_the_way(pair, a, b) : points;
+  ContactPoints points = points_at(pair, a, b, separation_, pair.reach);
+  if (separation_.distance <= ranges_.clearance) return points;
+  if (points.count == 0) return met_on_the_way(pair, a, b);
+  if (passes_by(pair)) let_pass(pair, points);
+  return points;
+}
+
+// A point holds a block before a plane that goes on beyond the face it is of, and one that comes nearer as it flies past would
+// strike it there. Whether the pair would touch nowhere on its way through the step, gravity's share of it aside.
+bool PolyhedronCollision::passes_by(const Pair& pair) const {
+  constexpr double sideways = 0.01;  // of the radius of the smaller one: too little to be past a face by more than its rim
+  constexpr double between = 0.25;   // two looks, likewise
+  constexpr double most_looks = 64;
+  const double touching = ranges_.clearance + ranges_.fall;
+  const double closes = pair.reach - ranges_.near;  // within the step, the most [m]
+  const double size = std::min(pair.first.radius, pair.second.radius);
+  if (separation_.distance <= touching || separation_.distance > touching + closes || closes < sideways * size) return false;
+  static thread_local PlacedPiece of_first, of_second;
+  const double looks = std::clamp(std::ceil(closes / (between * size)), 4.0, most_looks);
+  for (double look = 1; look <= looks; ++look) {
+    const double time = look / looks * pair.time_step;
+    const PlacedPiece &a = placed_after(pair.first, time, of_first), &b = placed_after(pair.second, time, of_second);
+    if (packing::separation(a, b, touching, ranges_.face_bias).distance <= touching) return false;
+  }
+  return true;
+}
+
+// The points are as far apart as the pair comes nearer by itself. What others push it nearer by is still held.
+void PolyhedronCollision::let_pass(const Pair& pair, ContactPoints& points) const {
+  for (int i = 0; i < points.count; ++i) {
+    ContactPoint& point = points.points[i];
+    const double apart = ranges_.clearance + ranges_.fall + approach(pair, point) * pair.time_step;
+    point.distance = std::max(point.distance, apart);
+  }
+}
+
+// Of the two blocks at a point, along the normal [m/s].
+double PolyhedronCollision::approach(const Pair& pair, const ContactPoint& at) const {
+  const auto velocity = [](const btRigidBody& body, const Eigen::Vector3d& point_of) {
+    return from_bullet(body.getVelocityInLocalPoint(to_bullet(point_of) - body.getWorldTransform().getOrigin()));
+  };
+  return separation_.normal.dot(velocity(*pair.first.block->body, at.on_first) -
+                                velocity(*pair.second.block->body, at.on_second));
 }
 
 ContactPoints PolyhedronCollision::points_at(const Pair& pair, const PlacedPiece& first, const PlacedPiece& second,
@@ -224,12 +265,8 @@ void PolyhedronCollision::take(const Pair& pair, const ContactPoints& points) {
 void PolyhedronCollision::set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const {
   const double restitution = restitution_of(pair.first, pair.second);
   if (restitution <= 0) return;
-  const btRigidBody &first = *pair.first.block->body, &second = *pair.second.block->body;
-  const auto velocity = [](const btRigidBody& body, const Eigen::Vector3d& point_of) {
-    return from_bullet(body.getVelocityInLocalPoint(to_bullet(point_of) - body.getWorldTransform().getOrigin()));
-  };
-  const double approach = separation_.normal.dot(velocity(first, at.on_first) - velocity(second, at.on_second));
-  if (approach <= ranges_.bounce_speed || at.distance - ranges_.clearance > approach * pair.time_step) return;
+  const double speed = approach(pair, at);
+  if (speed <= ranges_.bounce_speed || at.distance - ranges_.clearance > speed * pair.time_step) return;
   point.distance = std::min(at.distance, ranges_.clearance);
   point.restitution = restitution;
 }

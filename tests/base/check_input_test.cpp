@@ -126,7 +126,8 @@ TEST(CheckInput, FormsThatDoNotFitAreRefused) {
   EXPECT_EQ(weather_of("air: 1\nice: {table: [[3, -1]]}").wrong,
             "w:2:19: ice.table[0][1] is -1 (must be positive, W/m/K). Did you mean 1?\n");
   EXPECT_EQ(weather_of("air: 1\nice: {table: [[3 m, 1]]}").wrong,
-            "w:2:16: ice.table[0][0] is 3 m (must be a temperature, K; m is no unit of temperature). Did you mean 3 K?\n");
+            "w:2:16: ice.table[0][0] is 3 m (must be a temperature, K; m is no unit of temperature). Write it in K or another "
+            "unit of temperature\n");
   EXPECT_EQ(weather_of("air: 1\nice: {table: [3, 1]}").wrong,
             "w:2:15: ice.table is 3 (must be a CSV file, or a list of pairs of temperature [K] and positive, W/m/K)\n");
   EXPECT_EQ(weather_of("air: 1\nwind: fast").wrong,

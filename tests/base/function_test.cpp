@@ -166,7 +166,7 @@ TEST(Function, AMistakeInATableIsNamedWithLineAndColumn) {
             ":1:1: table of heat.here is tim [s] (the first column must be time, x, y, z and its unit). Did you mean time?");
   EXPECT_EQ(wrong("time,T [K]\n0,1\n"), ":1:1: table of heat.here is time (must be a name and a unit). Write time [s]");
   EXPECT_EQ(wrong("time [s],T [m]\n0,1\n"),
-            ":1:10: table of heat.here is T [m] (m is no unit of temperature). Did you mean K?");
+            ":1:10: table of heat.here is T [m] (m is no unit of temperature). Write it in K or another unit of temperature");
   EXPECT_EQ(wrong("time [s],T [K]\n0,1\n1,x\n"), ":3:3: table of heat.here is x (not a number)");
   EXPECT_EQ(wrong("time [s],T [K]\n0,1\n0,2\n"),
             ":3:1: table of heat.here is 0 (must be above the one before). A jump is two places close together");

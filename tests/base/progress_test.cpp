@@ -44,7 +44,7 @@ TEST(Progress, ATerminalLineRenewsItselfAndEndsAsAWholeLine) {
   watched.now += 2;
   watched.progress.update(0.25, "step 1");
   watched.progress.finish("");
-  EXPECT_EQ(watched.out.str(), "heat: 0 %, begins\r\x1b[Kheat: 25 %, 6 s left, step 1\r\x1b[Kheat: done in 2 s\n");
+  EXPECT_EQ(watched.out.str(), "heat: 0 %, begins\r\x1b[Kheat: 25 %, 6 s left, step 1\r\x1b[Kheat: done in 2.00 s\n");
 }
 
 TEST(Progress, AProgramGetsAnObjectALineAndAnUpdateASecond) {

@@ -119,6 +119,15 @@ TEST(AngleOfRepose, OfAConeIsItsSlope) {
   }
 }
 
+TEST(AngleOfRepose, OfAConeIsTheSameUnderAHopper) {
+  mesh::BlockMesh<3> mesh = cone(0.7);
+  const auto bare = angle_of_repose(cut(mesh));
+  add_box(mesh, {5, 5, 3}, Vector3d(0, 0, 18), true);
+  const auto under = angle_of_repose(cut(mesh));
+  ASSERT_TRUE(bare && under);
+  EXPECT_NEAR(under->angle, bare->angle, 1e-12);
+}
+
 TEST(AngleOfRepose, IsNotGivenForACrater) {
   mesh::BlockMesh<3> mesh;
   for (int i = 0; i < 21 * 21; ++i) {

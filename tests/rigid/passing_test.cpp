@@ -42,6 +42,25 @@ TEST(Passing, ABlockSlidesOverAPavementOfBlocks) {
   EXPECT_NEAR(settle(mesh, material(0), for_time(1)).poses[block].translation.x(), 1, 1e-3);
 }
 
+// Level over the upper edge of a bar that stands on its edge, nearer than the way of a step, wherever in its step it comes
+// there.
+TEST(Passing, ABlockThatFliesPastAnEdgeWithoutTouchingItGoesOnAsItWas) {
+  const Pose on_edge{{0, 0, -0.1 * std::sqrt(2)}, Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()))};
+  for (const double restitution : {0.0, 0.8}) {
+    for (int phase = 0; phase < 10; ++phase) {
+      mesh::BlockMesh<3> mesh;
+      add_box(mesh, {0.2, 0.4, 0.2}, on_edge, true);
+      const BlockId block = add_box(mesh, {0.1, 0.1, 0.1}, {-0.2 - 0.00125 * phase, 0, 0.051}, false, {3, 0, 0});
+      SettleOptions options = for_time(0.125);
+      options.gravity = {0, 0, -1e-6};
+      const Pose pose = settle(mesh, material(0.5, restitution), options).poses[block];
+      EXPECT_NEAR(pose.translation.x(), 3 * 0.125, 1e-9) << phase;
+      EXPECT_LT(pose.translation.tail<2>().norm(), 1e-7) << phase;
+      EXPECT_LT(pose.rotation.vec().norm(), 1e-9) << phase;
+    }
+  }
+}
+
 // A ledge that is no rounding stops it.
 TEST(Passing, ABlockIsStoppedByAStep) {
   mesh::BlockMesh<3> mesh;

@@ -98,6 +98,12 @@ TEST(Doctor, FindsWhatNothingCanStop) {
 TEST(Doctor, FindsBlocksThatTouchNothing) {
   EXPECT_THAT(report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1]", "[5, 0, 0]"}) + heat).suspicious,
               ElementsAre("1 of 1 blocks of body c2 touch nothing: no heat passes to or from them"));
+  const std::string held =
+      "heat: {initial: 300, until: 1, boundaries: [{body: c0, temperature: 400}, {body: c1, temperature: 300}]}\n";
+  EXPECT_THAT(report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1.1]"}) + held + "contact: {conductance: 100}\n").suspicious,
+              ElementsAre("no two blocks touch: no heat passes between any of them"));
+  EXPECT_THAT(report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1.1]"}) + held).suspicious, IsEmpty()) << "two bodies, each for itself";
+  EXPECT_THAT(report_of(cubes({}, {"[0, 0, 0]", "[0, 0, 1]"}) + held + "contact: {conductance: 100}\n").suspicious, IsEmpty());
 }
 
 TEST(Doctor, FindsAWindowThatReachesBeyondTheBlocks) {
@@ -127,6 +133,42 @@ TEST(Doctor, FindsWhatIsNotUsed) {
   EXPECT_THAT(report_of(two).suspicious,
               ElementsAre("no body is made of material b", "body d is free, but nothing moves without a settle section",
                           "the scene has neither a settle nor a heat section: nothing happens"));
+}
+
+TEST(Doctor, FindsTemperaturesThatLackTheirUnitInEveryForm) {
+  const std::string scene = cubes({}, {"[0, 0, 0]"});
+  const std::string end = "\noutput: {every: 1, probes: {p: {point: [0, 0, 0], exact: 20}}}\n";
+  EXPECT_THAT(
+      report_of(scene +
+                "heat: {initial: {expression: 20 + 100*x}, until: 1, boundaries: [{body: c0, temperature: {table: [[0 s, "
+                "400], [1 h, 30]]}}]}" +
+                end)
+          .suspicious,
+      ElementsAre("heat.initial is 20 at the origin and time 0, which is in kelvin: give it `unit: degC` if that is meant",
+                  "heat.boundaries[0].temperature.table[1][1] is 30, which is in kelvin: write 30 degC if that is meant",
+                  "output.probes.p.exact is 20, which is in kelvin: write 20 degC if that is meant"));
+  EXPECT_THAT(
+      report_of(scene + "heat: {initial: {expression: 20 + 100*x, unit: degC}, until: 1}\noutput: {every: 1}\n").suspicious,
+      IsEmpty());
+  EXPECT_THAT(
+      report_of(
+          "materials: {a: {density: 1, conductivity: {table: [[20, 3.1], [100, 2.5]]}, specific_heat: 1}}\nbodies: {c: {box: "
+          "{size: [1, 1, 1], centre: [0, 0, 0]}, material: a, mesh_size: 1}}\nheat: {initial: 300, until: 1}\n")
+          .suspicious,
+      ElementsAre("materials.a.conductivity.table[0][0] is 20, which is in kelvin: write 20 degC if that is meant"));
+}
+
+TEST(Doctor, FindsAnAngleThatLacksItsUnit) {
+  const auto turned = [](const std::string& angle) {
+    return "materials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies: {c: {box: {size: [1, 1, 1], centre: [0, "
+           "0, 0], "
+           "rotation: {axis: [0, 0, 1], angle: " +
+           angle + "}}, material: a, mesh_size: 1}}\nheat: {initial: 300, until: 1}\n";
+  };
+  EXPECT_THAT(report_of(turned("45")).suspicious,
+              ElementsAre("bodies.c.box.rotation.angle is 45, which is in radians: write 45 deg if that is meant"));
+  EXPECT_THAT(report_of(turned("45 deg")).suspicious, IsEmpty());
+  EXPECT_THAT(report_of(turned("1.5")).suspicious, IsEmpty());
 }
 
 TEST(Doctor, FindsTemperaturesThatLackTheirUnit) {

@@ -37,7 +37,8 @@ TEST(SceneErrors, AllAreListedInTheOrderOfTheFile) {
             "s.yaml:2:9: materials.ore.desnity is unknown (no key of materials.ore). Did you mean density?\n"
             "s.yaml:2:38: materials.ore.conductivity is -2.0 (must be positive, W/m/K). Did you mean 2.0?\n"
             "s.yaml:4:17: bodies.b.material is oer (must be a material of this scene). Did you mean ore?\n"
-            "s.yaml:4:33: bodies.b.mesh_size is 3 kg (must be positive, m; kg is no unit of length). Did you mean 3 m?\n"
+            "s.yaml:4:33: bodies.b.mesh_size is 3 kg (must be positive, m; kg is no unit of length). Write it in m or another "
+            "unit of length\n"
             "s.yaml:4:47: bodies.b.blocks is per_elemnt (must be one of whole, per_element). Did you mean per_element?\n"
             "s.yaml:4:89: bodies.b.sphere.centre is a list (must be a list of 3, each a length, m; it has 2)\n"
             "s.yaml:5:17: heat.initial is 25 C (must be not negative, K; C is no unit of temperature). Did you mean 25 degC?\n"
@@ -145,6 +146,15 @@ TEST(SceneErrors, MaterialsNeedWhatIsModelled) {
             "s.yaml:1:18: materials.ore.density is missing (heat is modelled in body b)\n"
             "s.yaml:1:18: materials.ore.conductivity is missing (heat is modelled in body b)\n"
             "s.yaml:1:18: materials.ore.specific_heat is missing (heat is modelled in body b)");
+}
+
+TEST(SceneErrors, AMaterialThatOnlyAnOverrideNamesIsAMisspeltOneUnlessABodyTakesIt) {
+  EXPECT_EQ(wrong_with(whole_scene, {"materials.oer.conductivity=2"}),
+            "--set materials.oer.conductivity: materials.oer is new (must be a material of this scene). Did you mean ore?");
+  const std::vector<std::string> taken{"materials.rock={density: 2700, conductivity: 2, specific_heat: 800}",
+                                       "bodies.block.material=rock"};
+  EXPECT_EQ(wrong_with(whole_scene, taken), "accepted");
+  EXPECT_EQ(wrong_with(whole_scene, {"materials.ice.density=900"}), "accepted") << "the scene itself has it";
 }
 
 TEST(SceneErrors, HeatNamesBodiesOfTheScene) {

@@ -62,7 +62,8 @@ TEST(SceneFunctions, MistakesAreNamedWithTheirPlace) {
   EXPECT_THAT(wrong_with(whole_scene, {"heat.boundaries[0].temperature={expression: 300 + w}"}),
               HasSubstr("heat.boundaries[0].temperature is 300 + w (must be a formula in x, y, z and t; w at its character 7"));
   EXPECT_THAT(wrong_with(whole_scene, {"heat.boundaries[0].temperature={expression: 3*t, unit: m}"}),
-              HasSubstr("heat.boundaries[0].temperature.unit is m (m is no unit of temperature). Did you mean K?"));
+              HasSubstr("heat.boundaries[0].temperature.unit is m (m is no unit of temperature). Write it in K or another unit "
+                        "of temperature"));
   EXPECT_THAT(wrong_with(whole_scene, {"heat.boundaries[0].temperature={table: [[0, 300], [60, 310]]}"}),
               HasSubstr("too short for a run from 0 to 43200 s"));
   EXPECT_THAT(wrong_with(whole_scene, {"heat.boundaries[0].temperature={table: nowhere.csv}"}),

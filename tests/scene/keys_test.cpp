@@ -114,7 +114,7 @@ std::vector<Change> world_changes() {
           {"bodies.*.velocity", {}, "bodies.block.velocity=[1, 0, 0]"},
           {"settle.gravity", {}, "settle.gravity=[0, 0, -1]"},
           {"settle.limit", {}, "settle.limit=1"},
-          {"settle.step", {}, "settle.step=1"},
+          {"settle.step", {}, "settle.step=1 ms"},
           {"settle.local_damping", {}, "settle.local_damping=0.5"},
           {"settle.viscous_damping", {}, "settle.viscous_damping=1"},
           {"settle.release_time", {}, "settle.release_time=1"},

@@ -81,6 +81,16 @@ TEST(ReadScene, TheEffectiveSceneIsTheSameScene) {
   }
 }
 
+// A run is told from another by that text: `scree resume` reads its scene.yaml again.
+TEST(ReadScene, TheEffectiveSceneReadAgainIsTheSameTextWhateverIsLeftOut) {
+  for (const char* left_out : {"title", "output", "output.every", "output.probes", "heat.boundaries", "settle"}) {
+    for (const char* also : {"output.frames_every=20 min", "output.every=20 min", "heat.tolerance=1 K"}) {
+      const Scene scene = scene_of(whole_scene, {std::string(left_out) + "=null", also});
+      EXPECT_EQ(scene_of(scene.effective).effective, scene.effective) << left_out << " and " << also;
+    }
+  }
+}
+
 TEST(ReadScene, TheEffectiveSceneShowsEveryDefault) {
   const std::string text = scene_of(whole_scene).effective;
   for (const char* line :

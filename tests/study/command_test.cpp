@@ -97,6 +97,21 @@ TEST(StudyCommand, GoesOnWhereItWasKilled) {
   EXPECT_EQ(fs::last_write_time(study.out / study.table().find("directory")->texts[0] / "summary.json"), first_made);
 }
 
+TEST(StudyCommand, BeginsARunAnewThatCannotBeGoneOnWith) {
+  const OneStudy study(two_by_two);
+  ASSERT_EQ(study.run("--task 1").status, 0);
+  ASSERT_EQ(study.run("--gather").status, 1) << "three runs are not made";
+  const fs::path first = study.out / study.table().find("directory")->texts[0];
+  const std::string probes = contents(first / "probes.csv");
+  nlohmann::json summary = study.summary(0);
+  summary["status"] = "interrupted";
+  std::ofstream(first / "summary.json") << summary.dump();
+  std::ofstream(first / "heat.restart.h5") << "no state";
+  const Ended ended = study.run("--task 1");
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  EXPECT_EQ(contents(first / "probes.csv"), probes);
+}
+
 // Long enough that nobody ends it by accident.
 std::string slow_study() {
   return std::string(two_by_two) + "set: [heat.until=40 h]\n";

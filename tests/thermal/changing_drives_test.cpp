@@ -147,6 +147,38 @@ TEST(ChangingDrives, TheErrorOfLoadsThatJumpWithinStepsIsEstimatedAndBounded) {
 }
 
 // Steps end at jumps that are known, so that nothing is missed.
+// A front heats a strip that all but does not conduct, so that each node's temperature has a closed form: it rises from when
+// the front comes to it, which most nodes do between the places that are looked at.
+TEST(ChangingDrives, TheErrorOfAFrontThatMovesOverManyNodesIsEstimatedAndBounded) {
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
+  const auto mesh = slab_mesh<2>({bar<2>(1, 60, 1, 0.02)});
+  auto materials = rock_only();
+  Material& rock = materials[MaterialId{0}];
+  rock.conductivity = Conductivity(1e-9);
+  const double rate = 1e6 / (*rock.density * (*rock.specific_heat)(300));  // [K/s]
+  for (const Integrator integrator : integrators) {
+    HeatOptions options = options_for(mesh, 300);
+    options.sources.push_back(
+        {test::on(BodyId{0}, std::nullopt), Function::from_expression("1e6*(x < 0.001*t)", unit, ValueRule{}), "front", {}});
+    TimeOptions time = an_hour(integrator);
+    time.until = 1000;
+    time.output_every = 50;
+    time.tolerance = 0.3;
+    HeatRun run(make_heat_model(mesh, materials, contact::ContactSet<2>{}, options), time);
+    for (double t = 50; t <= 1000; t += 50) {
+      run.advance_to(t);
+      double error = 0;
+      for (const NodeId node : mesh.nodes.ids()) {
+        const double exact = 300 + rate * std::max(0.0, t - mesh.nodes[node].x() / 0.001);
+        error = std::max(error, std::abs(run.state().temperature[node.value()] - exact));
+      }
+      EXPECT_LE(error, 1.6 * run.state().time_error) << t;  // when it jumps is looked for at sixteenths of a step
+      EXPECT_LE(error, time.tolerance) << t;
+    }
+    EXPECT_LE(run.state().time_error, time.tolerance);
+  }
+}
+
 TEST(ChangingDrives, HeatThatComesAndGoesAtOnceIsSummedToRounding) {
   const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
   const double power = 1e6;

@@ -8,6 +8,7 @@
 #include "tools/report/run_report.h"
 #include "tools/report/study_report.h"
 #include "tools/run/output_place.h"
+#include "tools/run/run_files.h"
 
 namespace scree::report {
 
@@ -24,7 +25,8 @@ int report_command(const ReportArguments& arguments) {
   const Pictures pictures = arguments.without_pictures ? Pictures::none
                             : arguments.animations     ? Pictures::animated
                                                        : Pictures::still;
-  const std::filesystem::path page = arguments.page.empty() ? directory / "report.html" : std::filesystem::path(arguments.page);
+  const std::filesystem::path page =
+      arguments.page.empty() ? run::RunFiles{directory}.page() : std::filesystem::path(arguments.page);
   if (!arguments.page.empty()) run::check_output_place("--page", page, {".html", ".htm"});
   write_text(page, study ? study_page(directory) : run_page({directory}, pictures));
   fmt::print("{}\n", page.string());

@@ -11,18 +11,23 @@ namespace scree::run {
 
 namespace {
 
+void remove(const RunFiles& files, const char* series) {
+  output::remove_series(files.directory, series);
+  std::filesystem::remove(files.picture(series));
+}
+
 void remove_earlier(const RunContext& context) {
   const RunFiles& files = context.files;
   try {
-    for (const char* series : {heat_series, contact_series}) output::remove_series(files.directory, series);
+    for (const char* series : {heat_series, contact_series}) remove(files, series);
     if (!context.scene.settle) {
-      output::remove_series(files.directory, settle_series);
+      remove(files, settle_series);
       std::error_code not_there;
       const bool is_read =
           context.scene.packing && std::filesystem::equivalent(*context.scene.packing, files.packing(), not_there);
       if (!is_read) std::filesystem::remove(files.packing());
     }
-    for (const auto& file : {files.probes(), files.restart()}) std::filesystem::remove(file);
+    for (const auto& file : {files.probes(), files.restart(), files.page()}) std::filesystem::remove(file);
   } catch (const std::filesystem::filesystem_error& error) {
     throw RunError(
         fmt::format("{}: cannot be removed ({}). Choose another --out", error.path1().string(), error.code().message()));

@@ -80,6 +80,8 @@ void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   const SettleStage& stage = *context.scene.settle;
   output::Series series(context.files.directory, settle_series);
+  std::error_code ignored;
+  std::filesystem::remove(context.files.picture(settle_series), ignored);  // of an earlier fall
   const auto ids = blocks.blocks.ids();
   const auto identity = identity_arrays(blocks, Table<BlockId, BlockId>(std::vector(ids.begin(), ids.end())));
   const auto frame = [&](double time, const Table<BlockId, Pose>& poses) {

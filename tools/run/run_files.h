@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace scree::run {
 
@@ -18,6 +19,9 @@ struct RunFiles {
   [[nodiscard]] std::filesystem::path packing() const { return directory / "packing.h5"; }
   [[nodiscard]] std::filesystem::path probes() const { return directory / "probes.csv"; }
   [[nodiscard]] std::filesystem::path restart() const { return directory / "heat.restart.h5"; }
+  // What `scree render` and `scree report` make of them, if they are not told otherwise.
+  [[nodiscard]] std::filesystem::path picture(const std::string& series) const { return directory / (series + ".png"); }
+  [[nodiscard]] std::filesystem::path page() const { return directory / "report.html"; }
   [[nodiscard]] std::filesystem::path lock() const { return directory / ".lock"; }  // held while a run writes here
 };
 

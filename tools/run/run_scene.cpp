@@ -138,6 +138,7 @@ int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& 
   catch_interrupts();
   Claim claim = claim_directory(scene, files, start, progress);
   say_models(scene, progress);
+  for (const std::string& sentence : scene.bare_values) progress.note("suspicious: " + sentence);
   const bool resume = start == Start::resume;
   RunContext context{.scene = scene,
                      .files = files,

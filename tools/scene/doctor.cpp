@@ -75,7 +75,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   Sentences& sentences = report.suspicious;
   append(sentences, unused_materials(scene));
   append(sentences, free_without_motion(scene));
-  append(sentences, cold_bare_temperatures(scene));
+  append(sentences, scene.bare_values);
   append(sentences, too_many_frames_of_a_fall(scene));
   append(sentences, too_many_outputs(scene));
   if (!scene.settle && !scene.packing && !scene.heat) {
@@ -88,7 +88,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }
   if (scene.settle || !scene.heat) return report;
-  append(sentences, isolated_blocks(mesh, *scene.contact, *scene.heat));
+  append(sentences, isolated_blocks(mesh, scene));
   return report;
 }
 template CheckReport check_scene(const Scene&, const mesh::BlockMesh<2>&);

@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "engine/base/nearest.h"
 #include "tools/scene/heat_models.h"
 #include "tools/scene/sections.h"
 
@@ -14,6 +17,21 @@ void need(const Checked& material, const std::string& property, const std::strin
     if (known.key == material.path + "." + property) return;  // another body needs it, too
   }
   problems.push_back({material.where, material.path + "." + property, "missing", reason, ""});
+}
+
+// A material that only a value from outside the file names is a name misspelt, which would change nothing, unless a body is
+// made of it.
+void check_new_materials(const Scene& scene, const Checked& materials, Problems& problems) {
+  for (const MaterialId id : scene.materials.ids()) {
+    const CheckedEntry& entry = materials.entries[id.index()];
+    const bool used =
+        std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto& body) { return body.material == id; });
+    if (used || !entry.where.file.starts_with("--set materials." + entry.name)) continue;
+    std::vector<std::string> others = names_of(materials);
+    std::erase(others, entry.name);
+    problems.push_back(
+        {entry.where, "materials." + entry.name, "new", "must be a material of this scene", suggest(entry.name, others)});
+  }
 }
 
 // Nothing: no property does.
@@ -101,6 +119,7 @@ void check_needs(const Scene& scene, const Checked& checked, Problems& problems)
     const std::string reason = fmt::format("heat is modelled in body {}", body.name);
     for (const char* property : {"density", "conductivity", "specific_heat"}) need(material, property, reason, problems);
   }
+  check_new_materials(scene, checked.at("materials"), problems);
   if (!scene.heat) return;
   check_integrator(scene, checked.at("heat"), problems);
   if (scene.effective_window) check_effective_conductivity(scene, checked.at("heat").at("effective_conductivity"), problems);

@@ -28,14 +28,10 @@ Checked part_of(Checked until, int parts) {
   return until;
 }
 
-void fill_in(CheckedEntry& output, const Checked& until) {
-  std::vector<CheckedEntry>& entries = output.value.entries;
-  if (const Checked* frames = output.value.find("frames_every")) {
-    entries.push_back(interval("every", *frames, output.where));
-  } else {
-    entries.push_back(interval("every", part_of(until, rows_by_default), output.where));
-    entries.push_back(interval("frames_every", part_of(until, frames_by_default), output.where));
-  }
+std::vector<CheckedEntry> intervals(const CheckedEntry& output, const Checked& until) {
+  if (const Checked* frames = output.value.find("frames_every")) return {interval("every", *frames, output.where)};
+  return {interval("every", part_of(until, rows_by_default), output.where),
+          interval("frames_every", part_of(until, frames_by_default), output.where)};
 }
 
 }  // namespace
@@ -44,7 +40,8 @@ void fill_in_intervals(Checked& checked) {
   const Checked& until = checked.at("heat").at("until");
   if (!until.sound) return;
   for (CheckedEntry& section : checked.entries) {
-    if (section.name == "output" && section.value.find("every") == nullptr) fill_in(section, until);
+    if (section.name != "output" || section.value.find("every") != nullptr) continue;
+    add_entries(section.value, scene_keys(), intervals(section, until));
   }
 }
 

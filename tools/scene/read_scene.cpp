@@ -5,6 +5,7 @@
 
 #include "tools/scene/keys.h"
 #include "tools/scene/sections.h"
+#include "tools/scene/suspicions.h"
 
 namespace scree {
 
@@ -116,6 +117,7 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   if (!problems.empty()) refuse(std::move(problems));
   collect_tables(checked, scene.tables);
   collect_places(checked, scene.places);
+  scene.bare_values = bare_values(checked);
   scene.effective = to_yaml(checked);
   return scene;
 }

@@ -18,6 +18,8 @@ void check_times(const Checked& settle, const rigid::SettleOptions& options, Pro
   expect("step", options.step >= options.limit / most_steps,
          fmt::format("must be at least {:g} s, for {:g} steps to settle.limit", options.limit / most_steps, most_steps));
   if (settle.at("accept_moving").flag()) return;
+  expect("step", options.step <= options.rest_window / 2,
+         fmt::format("must be at most half of settle.rest_window, {:g} s: a single step shows no rest", options.rest_window));
   expect("limit", options.limit >= options.rest_window,
          fmt::format("must be at least settle.rest_window, {:g} s: no pile is at rest before", options.rest_window));
   expect("limit", options.limit >= options.release_time,

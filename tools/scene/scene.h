@@ -45,6 +45,7 @@ struct Scene {
   std::vector<output::ProbeSpec> probes;
   std::vector<std::filesystem::path> tables;     // files that functions and curves come from
   std::map<std::string, SourceLocation> places;  // where each key is written
+  std::vector<std::string> bare_values;          // sentences on those that are probably meant in another unit than SI
   std::string effective;  // the scene as YAML with every default filled in; reading it gives the same scene
 };
 

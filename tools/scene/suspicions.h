@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/checked_input.h"
 #include "engine/mesh/block_mesh.h"
 #include "tools/scene/scene.h"
 
@@ -16,8 +17,8 @@ Sentences unused_materials(const Scene& scene);
 // Something is held fixed and something is not, and nothing moves.
 Sentences free_without_motion(const Scene& scene);
 
-// A bare number of 25 for a temperature is 25 K.
-Sentences cold_bare_temperatures(const Scene& scene);
+// A bare number of 25 for a temperature is 25 K, one of 45 for an angle 45 radians.
+Sentences bare_values(const Checked& checked);
 
 // Output times by the million, frames by the hundred thousand.
 Sentences too_many_frames_of_a_fall(const Scene& scene);
@@ -34,9 +35,9 @@ Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d&
 template <int dim>
 Sentences window_beyond_blocks(const mesh::BlockMesh<dim>& mesh, const Aabb<3>& window);
 
-// Blocks that no heat can reach through a contact, in bodies that no boundary or source heats.
+// Blocks that no heat can reach through a contact, in bodies that no boundary or source heats; and, of a scene that has a
+// section on contacts, that there are none.
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
-                          const thermal::HeatOptions& heat);
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene);
 
 }  // namespace scree

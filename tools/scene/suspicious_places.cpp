@@ -150,20 +150,25 @@ template Sentences window_beyond_blocks(const mesh::BlockMesh<2>&, const Aabb<3>
 template Sentences window_beyond_blocks(const mesh::BlockMesh<3>&, const Aabb<3>&);
 
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactOptions& options,
-                          const thermal::HeatOptions& heat) {
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene) {
   if (mesh.blocks.size() < 2) return {};
+  const thermal::HeatOptions& heat = *scene.heat;
   const thermal::JointOptions& joint = heat.joint;
   Table<BodyId, char> heated(mesh.bodies.size(), 0);
   for (const auto& boundary : heat.boundaries) heated[boundary.region.body] = 1;
   for (const auto& source : heat.sources) heated[source.region.body] = 1;
   Table<BlockId, bool> touched(mesh.blocks.size(), false);
-  const auto search = thermal::contact_search(joint, mesh.bodies, options);
+  const auto search = thermal::contact_search(joint, mesh.bodies, *scene.contact);
   for (const auto& contact : contact::find_contacts(mesh, search).contacts) {
     const BodyId owner = mesh.blocks[contact.owner].body, target = mesh.blocks[contact.target].body;
     if (std::holds_alternative<thermal::InsulatingJoint>(thermal::law_between(joint, mesh.bodies, owner, target))) continue;
     touched[contact.owner] = true;
     touched[contact.target] = true;
+  }
+  const auto& of_block = touched.raw();
+  if (scene.places.contains("contact") &&
+      std::none_of(of_block.begin(), of_block.end(), [](bool touches) { return touches; })) {
+    return {"no two blocks touch: no heat passes between any of them"};
   }
   Table<BodyId, std::size_t> alone(mesh.bodies.size());
   Table<BodyId, std::size_t> blocks(mesh.bodies.size());
@@ -180,7 +185,7 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::Conta
   }
   return sentences;
 }
-template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactOptions&, const thermal::HeatOptions&);
-template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactOptions&, const thermal::HeatOptions&);
+template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const Scene&);
+template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const Scene&);
 
 }  // namespace scree

@@ -109,14 +109,15 @@ void Conductor::start(const PlannedRun& run, std::optional<run::FileLock> settli
   fs::create_directories(own.directory);
   fs::remove(files_.outcome(run.directory));
   if (!run.packing.empty() && !settling) take_packing(files_, run);
-  active_.push_back({&run, run::ChildProcess(command_of(run), files_.log(run.directory)), std::move(settling)});
+  const bool resumes = fs::exists(own.scene());  // a run that was begun goes on with the scene it has
+  active_.push_back(
+      {&run, resumes, run::ChildProcess(command_of(run, resumes), files_.log(run.directory)), std::move(settling)});
 }
 
-// A run that was begun goes on with the scene it has.
-std::vector<std::string> Conductor::command_of(const PlannedRun& run) const {
+std::vector<std::string> Conductor::command_of(const PlannedRun& run, bool resumes) const {
   const run::RunFiles own = files_.run(run.directory);
   std::vector<std::string> words;
-  if (fs::exists(own.scene())) {
+  if (resumes) {
     words = {"resume", own.directory.string()};
   } else {
     words = {"run", study_.scene.string(), "--out", own.directory.string()};
@@ -146,6 +147,7 @@ void Conductor::collect() {
 void Conductor::finish(Active& active, const run::ChildEnd& end) {
   const PlannedRun& run = *active.run;
   write_outcome(files_, run.directory, end);
+  if (active.resumed && end.exit_status == 2) return begin_anew(run);
   const Outcome outcome = read_outcome(files_, run.directory);
   largest_run_ = std::max(largest_run_, outcome.peak_memory_bytes);
   // What ended a process from outside need not end the next one, nor what is wrong with this run's own values.
@@ -160,6 +162,15 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
   failed_ += sound ? 0 : 1;
   after_each_();
   show(sound ? "" : fmt::format("run {} {}: {}", run.number, outcome.status, outcome.reason));
+}
+
+// What cannot be gone on with, such as a state that is damaged.
+void Conductor::begin_anew(const PlannedRun& run) {
+  const run::RunFiles own = files_.run(run.directory);
+  fs::remove(own.scene());
+  fs::remove(own.summary());
+  waiting_.push_back(&run);
+  show(fmt::format("run {} is begun anew: {}", run.number, read_outcome(files_, run.directory).reason));
 }
 
 void Conductor::stop_all() {

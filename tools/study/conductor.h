@@ -36,6 +36,7 @@ class Conductor {
  private:
   struct Active {
     const PlannedRun* run;
+    bool resumed;
     run::ChildProcess process;
     std::optional<run::FileLock> settling;  // it makes the packing that others wait for
   };
@@ -45,9 +46,10 @@ class Conductor {
   [[nodiscard]] bool has_room() const;
   bool try_start(const PlannedRun& run);
   void start(const PlannedRun& run, std::optional<run::FileLock> settling);
-  [[nodiscard]] std::vector<std::string> command_of(const PlannedRun& run) const;
+  [[nodiscard]] std::vector<std::string> command_of(const PlannedRun& run, bool resumes) const;
   void collect();
   void finish(Active& active, const run::ChildEnd& end);
+  void begin_anew(const PlannedRun& run);
   void stop_all();
   void show(const std::string& event);
   const Study& study_;
