@@ -145,22 +145,25 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
   ContactPoints points = points_at(pair, a, b, separation_, pair.reach);
   if (separation_.distance <= ranges_.clearance) return points;
   if (points.count == 0) return met_on_the_way(pair, a, b);
-  if (passes_by(pair)) let_pass(pair, points);
+  if (passes_by(pair, points)) let_pass(pair, points);
   return points;
 }
 
 // A point holds a block before a plane that goes on beyond the face it is of, and one that comes nearer as it flies past would
 // strike it there. Whether the pair would touch nowhere on its way through the step, gravity's share of it aside.
-bool PolyhedronCollision::passes_by(const Pair& pair) const {
+bool PolyhedronCollision::passes_by(const Pair& pair, const ContactPoints& points) const {
   constexpr double sideways = 0.01;  // of the radius of the smaller one: too little to be past a face by more than its rim
   constexpr double between = 0.25;   // two looks, likewise
   constexpr double most_looks = 64;
   const double touching = ranges_.clearance + ranges_.fall;
-  const double closes = pair.reach - ranges_.near;  // within the step, the most [m]
+  const double nearer = pair.reach - ranges_.near;  // within the step, the most [m]
   const double size = std::min(pair.first.radius, pair.second.radius);
-  if (separation_.distance <= touching || separation_.distance > touching + closes || closes < sideways * size) return false;
+  if (separation_.distance <= touching || separation_.distance > touching + nearer || nearer < sideways * size) return false;
+  const bool closes = std::any_of(points.points.begin(), points.points.begin() + points.count,
+                                  [&](const ContactPoint& point) { return point.distance < room_needed(pair, point); });
+  if (!closes) return false;
   static thread_local PlacedPiece of_first, of_second;
-  const double looks = std::clamp(std::ceil(closes / (between * size)), 4.0, most_looks);
+  const double looks = std::clamp(std::ceil(nearer / (between * size)), 4.0, most_looks);
   for (double look = looks; look >= 1; --look) {  // most that touch do so at the end
     const double time = look / looks * pair.time_step;
     const PlacedPiece &a = placed_after(pair.first, time, of_first), &b = placed_after(pair.second, time, of_second);
@@ -173,9 +176,13 @@ bool PolyhedronCollision::passes_by(const Pair& pair) const {
 void PolyhedronCollision::let_pass(const Pair& pair, ContactPoints& points) const {
   for (int i = 0; i < points.count; ++i) {
     ContactPoint& point = points.points[i];
-    const double apart = ranges_.clearance + ranges_.fall + approach(pair, point) * pair.time_step;
-    point.distance = std::max(point.distance, apart);
+    point.distance = std::max(point.distance, room_needed(pair, point));
   }
+}
+
+// How far apart a point must be for the pair not to touch there within the step, by its own motion and gravity's [m].
+double PolyhedronCollision::room_needed(const Pair& pair, const ContactPoint& at) const {
+  return ranges_.clearance + ranges_.fall + approach(pair, at) * pair.time_step;
 }
 
 // Of the two blocks at a point, along the normal [m/s].

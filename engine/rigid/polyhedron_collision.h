@@ -66,7 +66,8 @@ class PolyhedronCollision final : public OwnCollision {
                                         const packing::Separation& at, double range) const;
   [[nodiscard]] ContactPoints met_on_the_way(const Pair& pair, const packing::PlacedPiece& first,
                                              const packing::PlacedPiece& second);
-  [[nodiscard]] bool passes_by(const Pair& pair) const;
+  [[nodiscard]] bool passes_by(const Pair& pair, const ContactPoints& points) const;
+  [[nodiscard]] double room_needed(const Pair& pair, const ContactPoint& at) const;
   void let_pass(const Pair& pair, ContactPoints& points) const;
   [[nodiscard]] double approach(const Pair& pair, const ContactPoint& at) const;
   void set_bounce(const Pair& pair, HeldPoint& point, const ContactPoint& at) const;
