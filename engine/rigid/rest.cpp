@@ -96,8 +96,7 @@ std::string RestWatch::criterion() const {
   return fmt::format(
       "in every step of a window of {:g} s the root mean square speed is below {:g} m/s and the unbalanced force (mean net "
       "force on a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m "
-      "in "
-      "it, nor more than {:g} of the block's width",
+      "in it, nor more than {:g} of the block's width",
       rest_window_, rest_speed_, rest_unbalanced_, allowed_.largest(), allowed_.part());
 }
 

@@ -160,13 +160,10 @@ TEST(Doctor, FindsTemperaturesThatLackTheirUnitInEveryForm) {
 
 TEST(Doctor, FindsAnAngleThatLacksItsUnit) {
   const auto turned = [](const std::string& angle) {
-    return "materials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies: {c: {box: {size: [1, 1, 1], centre: [0, "
-           "0, 0], "
-           "rotation: {axis: [0, 0, 1], angle: " +
-           angle + "}}, material: a, mesh_size: 1}}\nheat: {initial: 300, until: 1}\n";
+    return cubes({}, {"[0, 0, 0], rotation: {axis: [0, 0, 1], angle: " + angle + "}"}) + heat;
   };
   EXPECT_THAT(report_of(turned("45")).suspicious,
-              ElementsAre("bodies.c.box.rotation.angle is 45, which is in radians: write 45 deg if that is meant"));
+              ElementsAre("bodies.c0.box.rotation.angle is 45, which is in radians: write 45 deg if that is meant"));
   EXPECT_THAT(report_of(turned("45 deg")).suspicious, IsEmpty());
   EXPECT_THAT(report_of(turned("1.5")).suspicious, IsEmpty());
 }
