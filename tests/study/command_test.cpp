@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Each;
 using testing::HasSubstr;
+using testing::Not;
 
 bool settled_here(const nlohmann::json& summary) {
   return !summary["settle"]["reused"].get<bool>();
@@ -182,6 +183,35 @@ TEST(StudyCommand, RefusesWhatIsWrongBeforeAnyRun) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.text, HasSubstr("heat.tolerance is 2 m"));
   EXPECT_FALSE(fs::exists(study.out));
+}
+
+TEST(StudyCommand, NamesBareTemperaturesOfItsOwnOnce) {
+  const OneStudy study(R"(
+scene: scene.yaml
+vary:
+  - {key: heat.initial, range: {from: 20, to: 350 K, points: 2}}
+  - {key: heat.until, values: [1 h, 2 h]}
+report: [{column: when, probe: top, reaches: 70}]
+)");
+  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.text,
+              HasSubstr("suspicious: vary[0].range.from is 20, which is in kelvin: write 20 degC if that is meant"));
+  EXPECT_THAT(ended.text, HasSubstr("suspicious: report[0].reaches is 70, which is in kelvin"));
+  EXPECT_THAT(ended.text, Not(HasSubstr("range.to")));
+}
+
+TEST(StudyCommand, NamesABareTemperatureOfItsScenesOnceForAllRuns) {
+  const OneStudy study(R"(
+scene: scene.yaml
+set: [heat.initial=25]
+vary: [{key: heat.until, values: [1 h, 2 h]}]
+report: [heat.time]
+)");
+  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  const std::string sentence = "suspicious: heat.initial is 25, which is in kelvin";
+  ASSERT_THAT(ended.text, HasSubstr(sentence));
+  EXPECT_EQ(ended.text.find(sentence, ended.text.find(sentence) + 1), std::string::npos);
 }
 
 TEST(StudyCommand, SaysThatEqualPointsOfALatinHypercubeAreMadeOnce) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -20,14 +21,8 @@ bool is_bare(const std::string& text) {
   return !text.empty() && (std::isdigit(static_cast<unsigned char>(text.back())) != 0 || text.back() == '.');
 }
 
-void judge(const std::string& path, const std::string& text, double value, const Quantity& quantity, Sentences& sentences) {
-  if (!is_bare(text)) return;
-  if (quantity.kind == Quantity::Kind::temperature && value < coldest_usual) {
-    sentences.push_back(fmt::format("{} is {}, which is in kelvin: write {} degC if that is meant", path, text, text));
-  }
-  if (quantity.unit == "rad" && std::abs(value) > 2 * std::numbers::pi) {
-    sentences.push_back(fmt::format("{} is {}, which is in radians: write {} deg if that is meant", path, text, text));
-  }
+void add(Sentences found, Sentences& sentences) {
+  std::move(found.begin(), found.end(), std::back_inserter(sentences));
 }
 
 // The first that is suspicious: the others of a table are of its kind.
@@ -36,9 +31,9 @@ void judge_table(const Checked& table, Sentences& sentences) {
   for (std::size_t i = 0; i < table.texts.size() && found.empty(); ++i) {
     const bool is_argument = i % 2 == 0;
     const Quantity quantity = is_argument ? argument_of(*table.key) : table.key->quantity;
-    judge(fmt::format("{}[{}][{}]", table.path, i / 2, i % 2), table.texts[i], table.numbers[i], quantity, found);
+    found = bare_value(fmt::format("{}[{}][{}]", table.path, i / 2, i % 2), table.texts[i], table.numbers[i], quantity);
   }
-  for (std::string& sentence : found) sentences.push_back(std::move(sentence));
+  add(std::move(found), sentences);
 }
 
 // Where and when all its variables are zero.
@@ -68,13 +63,24 @@ void look_at(const Checked& value, Sentences& sentences) {
   } else if (given && value.key->type == KeyType::quantity && value.is_map) {
     judge_formula(value, sentences);
   } else if (given && value.key->type == KeyType::quantity && value.numbers.size() == 1) {
-    judge(value.path, value.text, value.number(), value.key->quantity, sentences);
+    add(bare_value(value.path, value.text, value.number(), value.key->quantity), sentences);
   }
   for (const CheckedEntry& entry : value.entries) look_at(entry.value, sentences);
   for (const Checked& item : value.items) look_at(item, sentences);
 }
 
 }  // namespace
+
+Sentences bare_value(const std::string& path, const std::string& text, double value, const Quantity& quantity) {
+  if (!is_bare(text)) return {};
+  if (quantity.kind == Quantity::Kind::temperature && value < coldest_usual) {
+    return {fmt::format("{} is {}, which is in kelvin: write {} degC if that is meant", path, text, text)};
+  }
+  if (quantity.unit == "rad" && std::abs(value) > 2 * std::numbers::pi) {
+    return {fmt::format("{} is {}, which is in radians: write {} deg if that is meant", path, text, text)};
+  }
+  return {};
+}
 
 Sentences bare_values(const Checked& checked) {
   Sentences sentences;

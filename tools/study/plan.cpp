@@ -131,6 +131,7 @@ std::vector<PlannedRun> plan(const Study& study) {
       check_reports(study, scene, complaints);
       run.directory = run::run_key(scene, study.error_estimate);
       if (scene.settle) run.packing = run::fall_key(scene);
+      run.bare_values = scene.bare_values;
     } catch (const InputError& error) {
       complaints.add(point, error);
     }

@@ -1,12 +1,14 @@
 #include "tools/study/read_study.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "engine/base/checked_input.h"
+#include "tools/scene/suspicions.h"
 #include "tools/study/design.h"
 #include "tools/study/given_keys.h"
 #include "tools/study/named_files.h"
@@ -40,6 +42,8 @@ class Reader {
     }
     if (const Checked* ensemble = root.find("ensemble")) study.ensemble = members(*ensemble);
     for (const Checked& report : root.at("report").items) study.reports.push_back(column(report));
+    study.bare_values = bare_values(root);
+    std::move(bare_ends_.begin(), bare_ends_.end(), std::back_inserter(study.bare_values));
     check_whole(study, root);
     return study;
   }
@@ -127,7 +131,9 @@ class Reader {
       if (end.sound) refuse(end, fmt::format("{}; {}", rule_words(key, 0), problem->reason), problem->suggestion);
       return 0;
     }
-    return std::get<double>(parsed);
+    const auto value = std::get<double>(parsed);
+    for (std::string& sentence : bare_value(end.path, end.text, value, key.quantity)) bare_ends_.push_back(std::move(sentence));
+    return value;
   }
 
   void read_range(const Checked& range, const Key& key, Factor& factor) {
@@ -215,6 +221,7 @@ class Reader {
 
   fs::path file_;
   Problems& problems_;
+  Sentences bare_ends_;  // of ranges, whose kind the scene's key tells
   std::vector<GivenKey> varied_;
   std::vector<GivenKey> set_;
 };

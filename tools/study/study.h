@@ -67,6 +67,7 @@ struct Study {
   std::optional<Factor> ensemble;           // its members repeat every combination
   std::vector<Report> reports;
   bool error_estimate = false;
+  std::vector<std::string> bare_values;  // sentences on its own, as Scene's on the scene's
 
   // Those of the factors, then the ensemble's.
   [[nodiscard]] std::vector<std::string> varied() const;

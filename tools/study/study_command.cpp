@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -184,6 +185,16 @@ void say_repeats(const Study& study, const std::vector<PlannedRun>& runs, Progre
                             runs.size(), asked));
 }
 
+// What the study says, and what its runs would say one by one.
+void say_suspicions(const Study& study, const std::vector<PlannedRun>& runs, Progress& progress) {
+  std::vector<std::string> sentences = study.bare_values;
+  for (const PlannedRun& run : runs) sentences.insert(sentences.end(), run.bare_values.begin(), run.bare_values.end());
+  std::set<std::string> said;
+  for (const std::string& sentence : sentences) {
+    if (said.insert(sentence).second) progress.note("suspicious: " + sentence);
+  }
+}
+
 int dispatch(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
   if (arguments.gather) {
     Progress progress(mode_of(arguments));
@@ -225,6 +236,7 @@ int run(const Arguments& arguments) {
   {
     Progress progress(mode_of(arguments));
     say_repeats(study, runs, progress);
+    say_suspicions(study, runs, progress);
   }
   if (arguments.list) return list(runs);
   const StudyFiles files{directory_of(arguments)};
