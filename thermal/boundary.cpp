@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/nearest.h"
 #include "engine/mesh/cells.h"
 #include "engine/mesh/part_in_box.h"
 #include "engine/mesh/surfaces.h"
@@ -126,8 +127,9 @@ class Applier {
     const Region& region = boundary.region;
     const std::vector<std::string> names = mesh::surface_names(mesh_, region.body);
     const std::string& body = mesh_.bodies[region.body].name;
-    const std::string hint = names.empty() ? fmt::format("Body {} has no named surfaces; use `within`", body)
-                                           : fmt::format("Body {} has {}", body, fmt::join(names, ", "));
+    std::string hint = fmt::format("Body {} has no named surfaces; use `within`", body);
+    if (!names.empty()) hint = fmt::format("Body {} has {}", body, fmt::join(names, ", "));
+    if (const auto meant = nearest(*region.surface, names)) hint = fmt::format("Did you mean {}? {}", *meant, hint);
     problems_.push_back(
         problem("heat.boundaries: " + boundary.name + ": surface", *region.surface, "must be a surface of body " + body, hint));
     problems_.back().where = boundary.where;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/scenes/scene_run.h"
@@ -92,6 +93,7 @@ TEST(JointedCubes, ConductAsTheClosedFormSays) {
   }
   EXPECT_NEAR(found["solid_fraction"].get<double>(), 1, 1e-9);
   EXPECT_FALSE(run.summary["heat"].contains("covered_boundaries"));
+  EXPECT_FALSE(run.summary.contains("remarks"));
 }
 
 // A window is asked what the pile is, whatever is done to it; of unlike meshes perfect joints go by what drives them.
@@ -176,6 +178,8 @@ TEST(JointedCubes, AreToldFromCubesInTheOpenWhereAllTheirFacesAreCooled) {
   EXPECT_EQ(covered[0]["name"], "air");
   EXPECT_NEAR(covered[0]["area"], 3.84, 1e-12);
   EXPECT_NEAR(covered[0]["covered_area"], 2.88, 1e-12);
+  ASSERT_EQ(run.summary["remarks"].size(), 1u);
+  EXPECT_THAT(run.summary["remarks"][0].get<std::string>(), testing::HasSubstr("air acts on 3.84 m2, of which 2.88 m2 lie"));
 }
 
 }  // namespace

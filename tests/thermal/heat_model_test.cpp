@@ -291,9 +291,12 @@ TEST(HeatModelErrors, AnUnknownSurfaceIsAnsweredWithThoseThatThereAre) {
   HeatOptions options = options_for(mesh, 300);
   options.boundaries.push_back({test::on(BodyId{0}, std::nullopt, "top"), HeatFlux{1}, "flux", {"a.yaml", 7, 3}});
   options.boundaries.push_back({test::on(BodyId{0}, std::nullopt, "right"), FixedTemperature{1}, "held", {}});
+  options.boundaries.push_back({test::on(BodyId{0}, std::nullopt, "lefft"), HeatFlux{1}, "misspelt", {}});
   const std::string message = message_of([&] { make_heat_model(mesh, rock_only(), {}, options); });
   EXPECT_THAT(message, HasSubstr("a.yaml:7:3: heat.boundaries: flux: surface is top (must be a surface of body body0). Body "
                                  "body0 has left, right"));
+  EXPECT_THAT(message, HasSubstr("misspelt: surface is lefft (must be a surface of body body0). Did you mean left? Body body0 "
+                                 "has left, right"));
   EXPECT_THAT(message, HasSubstr("heat.boundaries: held is body body0 on right (must hold at least one node)"));
 }
 

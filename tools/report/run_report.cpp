@@ -47,6 +47,12 @@ void add_head(Page& page, const Json& summary) {
   page.facts(facts);
 }
 
+void add_remarks(Page& page, const Json& summary) {
+  if (!summary.contains("remarks")) return;
+  page.heading("To know before using it");
+  for (const Json& remark : summary["remarks"]) page.paragraph(escaped(remark.get<std::string>()));
+}
+
 void add_models(Page& page, const Json& summary, const run::RunFiles& files) {
   page.heading("What was modelled, and why");
   Rows rows{{"model", "reason"}};
@@ -197,6 +203,7 @@ std::string run_page(const run::RunFiles& files, Pictures pictures) {
   const std::string title = text(summary, "title");
   Page page(title.empty() ? files.directory.filename().string() : title);
   add_head(page, summary);
+  add_remarks(page, summary);
   add_models(page, summary, files);
   add_pictures(page, summary, files, pictures);
   add_probes(page, files);

@@ -34,8 +34,8 @@ HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim>& packing) {
     return true;
   });
   for (const std::string& key : pile.unused_joints)
-    context.progress.note(fmt::format("contacts: {} holds for none in this packing", key));
-  if (pile.one_sided) context.progress.note("contacts: " + one_sided_words(*pile.one_sided));
+    context.remark(fmt::format("contacts: {} holds for none in this packing", key));
+  if (pile.one_sided) context.remark("contacts: " + one_sided_words(*pile.one_sided));
   return pile;
 }
 
@@ -131,7 +131,7 @@ void find_overlaps(RunContext& context, HeatOutcome<dim>& outcome) {
   }
   outcome.covered = covered_boundaries(outcome.pile.mesh, context.scene.heat->boundaries, outcome.overlap_areas);
   for (const CoveredBoundary& boundary : outcome.covered) {
-    context.progress.note(
+    context.remark(
         fmt::format("heat: {} acts on {:.4g} m2, of which {:.4g} m2 lie on other blocks; a box (`within`) can "
                     "leave them out",
                     boundary.name, boundary.area, boundary.covered_area));

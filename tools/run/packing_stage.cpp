@@ -61,8 +61,7 @@ packing::Packing<dim> read_named(const Scene& scene) {
 
 void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& bodies) {
   const bool known = std::none_of(bodies.begin(), bodies.end(), [](const mesh::Body& body) { return body.made_from.empty(); });
-  if (!known)
-    context.progress.note("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
+  if (!known) context.remark("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
 }
 
 // Whoever names a packing accepts it as it is, which the run that made it may not have done.
@@ -70,10 +69,10 @@ template <int dim>
 void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
   if (!packing.settled) return;
   const packing::SettleReport& report = *packing.settled;
-  if (!report.at_rest) context.progress.note("packing: its blocks were still moving when it was written");
+  if (!report.at_rest) context.remark("packing: its blocks were still moving when it was written");
   const double overlap = report.max_penetration / report.mean_edge;
   if (overlap > SettleStage{}.largest_overlap) {
-    context.progress.note(fmt::format("packing: two of its blocks overlap by {:.3g} of the mean edge", overlap));
+    context.remark(fmt::format("packing: two of its blocks overlap by {:.3g} of the mean edge", overlap));
   }
 }
 

@@ -23,7 +23,14 @@ struct RunContext {
   bool begun = false;          // the directory holds this run's files (begin_results.h)
   FilesTogether last_files{};  // which wait for the summary
   std::vector<StageCost> costs{};
-  StageClock* running = nullptr;  // of the present stage, if any
+  std::vector<std::string> remarks{};  // for whoever reads the results
+  StageClock* running = nullptr;       // of the present stage, if any
+
+  // What a user should know of the results, though it makes them no less sound: said at once, and kept for the summary.
+  void remark(std::string text) {
+    progress.note(text);
+    remarks.push_back(std::move(text));
+  }
 
   // Runs one stage: shows it, measures it, and returns what it made.
   template <class Work>

@@ -58,8 +58,7 @@ Ending run_stages(RunContext& context, Json& summary) {
   }
   if (outcome.packing.settled) {
     const std::size_t lost = outcome.packing.settled->lost_blocks.size();
-    if (lost > 0)
-      context.progress.note(fmt::format("lost: {} blocks left the scene; settle.lost of the summary names them", lost));
+    if (lost > 0) context.remark(fmt::format("lost: {} blocks left the scene; settle.lost of the summary names them", lost));
     auto reasons = unsound(scene, outcome.packing);
     if (!reasons.empty()) return {"not_settled", 1, std::move(reasons)};
   }
@@ -138,16 +137,17 @@ int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& 
   catch_interrupts();
   Claim claim = claim_directory(scene, files, start, progress);
   say_models(scene, progress);
-  for (const std::string& sentence : scene.bare_values) progress.note("suspicious: " + sentence);
   const bool resume = start == Start::resume;
   RunContext context{.scene = scene,
                      .files = files,
                      .progress = progress,
                      .resume = resume,
                      .estimate_space_error = space_errors == SpaceErrors::estimated || (resume && was_estimated(files))};
+  for (const std::string& sentence : scene.bare_values) context.remark("suspicious: " + sentence);
   Json summary = opening_summary(context);
   Ending ending = run_to_an_end(context, claim, summary);
   begin_results(context);
+  if (!context.remarks.empty()) summary["remarks"] = context.remarks;
   add_stages(summary, context.costs);
   write_last_files(context, summary, ending);
   say_costs(context.costs, progress);

@@ -1,0 +1,24 @@
+// The page of a run without its pictures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/scenes/scene_run.h"
+#include "tools/report/run_report.h"
+
+namespace scree::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(RunPage, TellsWhatToKnowBeforeUsingTheResultsAndNothingIfThereIsNothing) {
+  const std::string heading = "<h2>To know before using it</h2>";
+  const auto plain = test::run("hexahedra", test::fresh_directory("page_plain"));
+  EXPECT_THAT(run_page(run::RunFiles{plain.directory}, Pictures::none), Not(HasSubstr(heading)));
+  const auto bare = test::run("hexahedra", test::fresh_directory("page_bare"), {"heat.initial=25"});
+  const std::string html = run_page(run::RunFiles{bare.directory}, Pictures::none);
+  EXPECT_THAT(html, HasSubstr(heading + "\n<p>suspicious: heat.initial is 25, which is in kelvin"));
+}
+
+}  // namespace
+}  // namespace scree::report
