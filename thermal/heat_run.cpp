@@ -131,23 +131,22 @@ class HeatRun::Implementation {
     if (options_.integrator == Integrator::explicit_euler) {
       fixed_steps(span.begin, span.length, progress);
     } else {
-      chosen_steps(span.begin, span.length, progress);
+      chosen_steps(span, progress);
     }
     state_.time = span.end;
   }
 
   // Each stretch between two jumps has steps of its own, which know nothing of these.
-  void chosen_steps(double begin, double length, const Progress& progress) {
-    const double end = begin + length;
-    const TimeBends bends(model_, begin, end);
-    if (bends.jumps().empty()) return smooth_steps(begin, length, bends, progress);
-    double from = begin;
+  void chosen_steps(const Span& span, const Progress& progress) {
+    const TimeBends bends(model_, span.begin, span.end);
+    if (bends.jumps().empty()) return smooth_steps(span.begin, span.length, bends, progress);
+    double from = span.begin;
     for (const Jump& jump : bends.jumps()) {
       if (jump.before > from) smooth_steps(from, jump.before - from, bends, progress);
       leap(jump.after);
       from = jump.after;
     }
-    if (from < end) smooth_steps(from, end - from, bends, progress);
+    if (from < span.end) smooth_steps(from, span.end - from, bends, progress);
   }
 
   // What follows is as sudden as a start.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/between.h"
+#include "engine/base/check.h"
 
 namespace scree::thermal {
 
@@ -55,6 +56,7 @@ class Looks {
       if (std::abs(values_[i + 1] - values_[i]) <= least_jump * range()) continue;
       if (const std::optional<Jump> jump = jump_after(i)) jumps.push_back(*jump);
     }
+    if (const std::optional<Jump> jump = jump_at_end()) jumps.push_back(*jump);
     return jumps;
   }
 
@@ -75,6 +77,19 @@ class Looks {
       if (!(std::abs(over - under) >= least)) return std::nullopt;
     }
     return Jump{std::max(begin_, low - apart * std::abs(low)), std::min(end_, high + apart * std::abs(high))};
+  }
+
+  // Or a few roundings behind the end: the times of the last step are sums that may come to lie there, and it would see what is
+  // behind the jump.
+  [[nodiscard]] std::optional<Jump> jump_at_end() const {
+    const double behind = end_ + apart * std::abs(end_), last = values_[steps_];
+    try {
+      if (std::abs(function_(place_, behind) - last) > std::max(least_jump * range(), rounding * std::abs(last)))
+        return Jump{std::max(begin_, end_ - apart * std::abs(end_)), end_};
+    } catch (const InputError&) {
+      // It need not have a value there.
+    }
+    return std::nullopt;
   }
 
   const Function& function_;

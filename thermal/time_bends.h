@@ -22,7 +22,7 @@ class TimeBends {
   // Refers to the model.
   TimeBends(const HeatModel& model, double begin, double end);
 
-  // Ascending, from `begin` to `end`.
+  // Ascending, from `begin` to `end`; of one at the end or some roundings behind it `after` is the end.
   [[nodiscard]] const std::vector<Jump>& jumps() const { return jumps_; }
 
   // The most bends that a condition or a load has at one place, without those at the two times.

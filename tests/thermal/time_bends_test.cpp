@@ -47,7 +47,7 @@ TEST(TimeBends, JumpsAreFoundToRounding) {
 
 TEST(TimeBends, AJumpAtTheEndBelongsToTheTimeBeforeIt) {
   expect_jumps({"t < 1000 ? 1 : 2"}, {1000});
-  expect_jumps({"t <= 1000 ? 1 : 2"}, {});
+  expect_jumps({"t <= 1000 ? 1 : 2"}, {1000});  // a step's time that is rounded up would see it
 }
 
 TEST(TimeBends, AJumpAtTheBeginningIsThereOnlyIfTheBeginningIsBeforeIt) {
