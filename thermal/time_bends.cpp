@@ -76,20 +76,24 @@ class Looks {
       (below ? over : under) = value;
       if (!(std::abs(over - under) >= least)) return std::nullopt;
     }
-    return Jump{std::max(begin_, low - apart * std::abs(low)), std::min(end_, high + apart * std::abs(high))};
+    return around(low, high);
   }
 
-  // Or a few roundings behind the end: the times of the last step are sums that may come to lie there, and it would see what is
-  // behind the jump.
+  // Nothing, but for one that lies a few roundings behind the end and counts as at it: the times of the last step are sums that
+  // may come to lie there, and it would see what is behind the jump.
   [[nodiscard]] std::optional<Jump> jump_at_end() const {
     const double behind = end_ + apart * std::abs(end_), last = values_[steps_];
     try {
       if (std::abs(function_(place_, behind) - last) > std::max(least_jump * range(), rounding * std::abs(last)))
-        return Jump{std::max(begin_, end_ - apart * std::abs(end_)), end_};
+        return around(end_, end_);
     } catch (const InputError&) {
       // It need not have a value there.
     }
     return std::nullopt;
+  }
+
+  [[nodiscard]] Jump around(double low, double high) const {
+    return {std::max(begin_, low - apart * std::abs(low)), std::min(end_, high + apart * std::abs(high))};
   }
 
   const Function& function_;

@@ -27,6 +27,11 @@ bool settled_here(const nlohmann::json& summary) {
   return !summary["settle"]["reused"].get<bool>();
 }
 
+// What the command says of a study without making it.
+Ended listed(const OneStudy& study) {
+  return shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+}
+
 TEST(StudyCommand, SettlesOncePerSeedHeatsEveryRunAndTabulatesThem) {
   const OneStudy study(two_by_two);
   const Ended ended = study.run("--jobs 2");
@@ -193,7 +198,7 @@ vary:
   - {key: heat.until, values: [1 h, 2 h]}
 report: [{column: when, probe: top, reaches: 70}]
 )");
-  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  const Ended ended = listed(study);
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.text,
               HasSubstr("suspicious: vary[0].range.from is 20, which is in kelvin: write 20 degC if that is meant"));
@@ -208,7 +213,7 @@ set: [heat.initial=25]
 vary: [{key: heat.until, values: [1 h, 2 h]}]
 report: [heat.time]
 )");
-  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  const Ended ended = listed(study);
   const std::string sentence = "suspicious: heat.initial is 25, which is in kelvin";
   ASSERT_THAT(ended.text, HasSubstr(sentence));
   EXPECT_EQ(ended.text.find(sentence, ended.text.find(sentence) + 1), std::string::npos);
@@ -221,7 +226,7 @@ vary: [{key: heat.until, values: [1 h, 2 h]}]
 latin_hypercube: {points: 6}
 report: [heat.time]
 )");
-  const Ended ended = shell(fmt::format("{} study {} --list", SCREE_PROGRAM, study.file.string()), study.file.parent_path());
+  const Ended ended = listed(study);
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.text, HasSubstr("2 runs instead of 6"));
   EXPECT_EQ(study.run().status, 0);

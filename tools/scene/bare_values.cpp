@@ -2,7 +2,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -21,19 +20,17 @@ bool is_bare(const std::string& text) {
   return !text.empty() && (std::isdigit(static_cast<unsigned char>(text.back())) != 0 || text.back() == '.');
 }
 
-void add(Sentences found, Sentences& sentences) {
-  std::move(found.begin(), found.end(), std::back_inserter(sentences));
-}
-
 // The first that is suspicious: the others of a table are of its kind.
 void judge_table(const Checked& table, Sentences& sentences) {
-  Sentences found;
-  for (std::size_t i = 0; i < table.texts.size() && found.empty(); ++i) {
+  for (std::size_t i = 0; i < table.texts.size(); ++i) {
     const bool is_argument = i % 2 == 0;
     const Quantity quantity = is_argument ? argument_of(*table.key) : table.key->quantity;
-    found = bare_value(fmt::format("{}[{}][{}]", table.path, i / 2, i % 2), table.texts[i], table.numbers[i], quantity);
+    const std::string path = fmt::format("{}[{}][{}]", table.path, i / 2, i % 2);
+    if (auto sentence = bare_value(path, table.texts[i], table.numbers[i], quantity)) {
+      sentences.push_back(std::move(*sentence));
+      return;
+    }
   }
-  add(std::move(found), sentences);
 }
 
 // Where and when all its variables are zero.
@@ -63,7 +60,8 @@ void look_at(const Checked& value, Sentences& sentences) {
   } else if (given && value.key->type == KeyType::quantity && value.is_map) {
     judge_formula(value, sentences);
   } else if (given && value.key->type == KeyType::quantity && value.numbers.size() == 1) {
-    add(bare_value(value.path, value.text, value.number(), value.key->quantity), sentences);
+    if (auto sentence = bare_value(value.path, value.text, value.number(), value.key->quantity))
+      sentences.push_back(std::move(*sentence));
   }
   for (const CheckedEntry& entry : value.entries) look_at(entry.value, sentences);
   for (const Checked& item : value.items) look_at(item, sentences);
@@ -71,15 +69,16 @@ void look_at(const Checked& value, Sentences& sentences) {
 
 }  // namespace
 
-Sentences bare_value(const std::string& path, const std::string& text, double value, const Quantity& quantity) {
-  if (!is_bare(text)) return {};
+std::optional<std::string> bare_value(const std::string& path, const std::string& text, double value,
+                                      const Quantity& quantity) {
+  if (!is_bare(text)) return std::nullopt;
   if (quantity.kind == Quantity::Kind::temperature && value < coldest_usual) {
-    return {fmt::format("{} is {}, which is in kelvin: write {} degC if that is meant", path, text, text)};
+    return fmt::format("{} is {}, which is in kelvin: write {} degC if that is meant", path, text, text);
   }
   if (quantity.unit == "rad" && std::abs(value) > 2 * std::numbers::pi) {
-    return {fmt::format("{} is {}, which is in radians: write {} deg if that is meant", path, text, text)};
+    return fmt::format("{} is {}, which is in radians: write {} deg if that is meant", path, text, text);
   }
-  return {};
+  return std::nullopt;
 }
 
 Sentences bare_values(const Checked& checked) {

@@ -1,6 +1,7 @@
 // What is allowed in a scene, and yet seldom meant. Each returns sentences.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ Sentences free_without_motion(const Scene& scene);
 // A bare number of 25 for a temperature is 25 K, one of 45 for an angle 45 radians.
 Sentences bare_values(const Checked& checked);
 // ... of one number, as the text at this path of the input gives it; its value in SI.
-Sentences bare_value(const std::string& path, const std::string& text, double value, const Quantity& quantity);
+std::optional<std::string> bare_value(const std::string& path, const std::string& text, double value, const Quantity& quantity);
 
 // Output times by the million, frames by the hundred thousand.
 Sentences too_many_frames_of_a_fall(const Scene& scene);

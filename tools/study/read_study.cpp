@@ -132,7 +132,7 @@ class Reader {
       return 0;
     }
     const auto value = std::get<double>(parsed);
-    for (std::string& sentence : bare_value(end.path, end.text, value, key.quantity)) bare_ends_.push_back(std::move(sentence));
+    if (auto sentence = bare_value(end.path, end.text, value, key.quantity)) bare_ends_.push_back(std::move(*sentence));
     return value;
   }
 

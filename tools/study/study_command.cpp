@@ -187,12 +187,14 @@ void say_repeats(const Study& study, const std::vector<PlannedRun>& runs, Progre
 
 // What the study says, and what its runs would say one by one.
 void say_suspicions(const Study& study, const std::vector<PlannedRun>& runs, Progress& progress) {
-  std::vector<std::string> sentences = study.bare_values;
-  for (const PlannedRun& run : runs) sentences.insert(sentences.end(), run.bare_values.begin(), run.bare_values.end());
   std::set<std::string> said;
-  for (const std::string& sentence : sentences) {
-    if (said.insert(sentence).second) progress.note("suspicious: " + sentence);
-  }
+  const auto say = [&](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences) {
+      if (said.insert(sentence).second) progress.note("suspicious: " + sentence);
+    }
+  };
+  say(study.bare_values);
+  for (const PlannedRun& run : runs) say(run.bare_values);
 }
 
 int dispatch(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
