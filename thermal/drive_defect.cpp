@@ -1,5 +1,6 @@
 #include "thermal/drive_defect.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "thermal/evaluated.h"
@@ -9,47 +10,82 @@ namespace scree::thermal {
 
 namespace {
 
-// Times in a step at which the integral looks at what drives it: enough to know the defect of a jump to an eighth.
-constexpr int looks = 16;
+// Enough to know the defect of a jump to an eighth.
+std::vector<Look> many_looks() {
+  constexpr int looks = 16;
+  std::vector<Look> at;
+  for (int i = 0; i < looks; ++i) at.push_back({(i + 0.5) / looks, 1.0 / looks});
+  return at;
+}
+
+std::vector<Look> gauss_looks() {
+  const double off = 0.5 * std::sqrt(0.6);
+  return {{0.5 - off, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + off, 5.0 / 18}};
+}
 
 class Defect {
  public:
-  Defect(const std::vector<Look>& quadrature, double begin, double length)
-      : quadrature_(quadrature), begin_(begin), length_(length) {}
+  Defect(const std::vector<Look>& quadrature, const LookedAt& step)
+      : quadrature_(quadrature), step_(step), integral_(step.smooth ? gauss_looks() : many_looks()) {}
 
   // Of f(t): the quadrature's less the integral.
   template <class Value>
   double operator()(const Value& f) const {
-    double integral = 0;
-    for (int i = 0; i < looks; ++i) integral += f(begin_ + (i + 0.5) / looks * length_) / looks;
-    double parabola = 0;
-    for (const Look& look : quadrature_) parabola += look.weight * f(begin_ + look.part * length_);
-    return length_ * (parabola - integral);
+    return step_.length * (sum(quadrature_, f) - sum(integral_, f));
   }
 
  private:
+  template <class Value>
+  [[nodiscard]] double sum(const std::vector<Look>& looks, const Value& f) const {
+    double sum = 0;
+    for (const Look& look : looks) sum += look.weight * f(step_.begin + look.part * step_.length);
+    return sum;
+  }
+
   const std::vector<Look>& quadrature_;
-  double begin_;
-  double length_;
+  const LookedAt& step_;
+  std::vector<Look> integral_;
 };
 
-// value(place) at each node.
-template <class Value>
-Eigen::VectorXd at_nodes(const NodeShares& on, bool varies_in_place, const Value& value) {
-  Evaluated evaluated(varies_in_place, value);
-  Eigen::VectorXd values(static_cast<Eigen::Index>(on.nodes.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = evaluated(on.places.col(i));
-  return values;
-}
+// Heat that is missed [J].
+class MissedHeat {
+ public:
+  MissedHeat(const LookedAt& step, const Eigen::VectorXd& capacity)
+      : step_(step), capacity_(capacity), heat_(Eigen::VectorXd::Zero(capacity.size())) {}
 
-void add(const Load& load, const Defect& defect, Eigen::VectorXd& heat) {
+  // missed(i) for a share of one at node i of those.
+  template <class Missed>
+  void add(const NodeShares& on, bool varies_in_place, const Missed& missed) {
+    if (step_.smooth && varies_in_place && is_negligible(on, missed)) return;
+    for (std::size_t i = 0; i < on.nodes.size(); ++i) heat_[on.nodes[i].value()] += on.shares[i] * missed(i);
+  }
+
+  [[nodiscard]] Eigen::VectorXd& heat() { return heat_; }
+
+ private:
+  template <class Missed>
+  [[nodiscard]] bool is_negligible(const NodeShares& on, const Missed& missed) const {
+    constexpr std::size_t most_places = 16;
+    const std::size_t count = std::min(on.nodes.size(), most_places);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = k * on.nodes.size() / count;
+      if (std::abs(on.shares[i] * missed(i)) > step_.negligible * capacity_[on.nodes[i].value()]) return false;
+    }
+    return true;
+  }
+
+  const LookedAt& step_;
+  const Eigen::VectorXd& capacity_;
+  Eigen::VectorXd heat_;
+};
+
+void add(const Load& load, const Defect& defect, MissedHeat& heat) {
   if (!varies_in_time(load)) return;
-  const Eigen::VectorXd missed = at_nodes(load.on, load.density.varies_in_place(), [&](const Eigen::Vector3d& place) {
+  const bool varies_in_place = load.density.varies_in_place();
+  Evaluated missed(varies_in_place, [&](const Eigen::Vector3d& place) {
     return defect([&](double time) { return load.density(place, time); });
   });
-  for (std::size_t i = 0; i < load.on.nodes.size(); ++i) {
-    heat[load.on.nodes[i].value()] += load.on.shares[i] * missed[static_cast<Eigen::Index>(i)];
-  }
+  heat.add(load.on, varies_in_place, [&](std::size_t i) { return missed(load.on.places.col(static_cast<Eigen::Index>(i))); });
 }
 
 // By how much more held temperatures count, in the order of the fixed nodes [K s].
@@ -72,7 +108,7 @@ Eigen::VectorXd missed_of_held(const HeatModel& model, const Defect& defect) {
 
 // Exchanged heat is the coefficient times the difference of a power of both temperatures, so that what is missed is made of
 // two defects: that of what comes in, and that of the coefficient.
-void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& temperature, Eigen::VectorXd& heat) {
+void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& temperature, MissedHeat& heat) {
   if (!varies_in_time(exchange)) return;
   const Function& coefficient = exchange.coefficient;
   const Function& surroundings = exchange.surroundings;
@@ -80,29 +116,27 @@ void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& 
   const auto potential = [&](double t) {
     return exchange.law == Exchange::Law::convection ? t : stefan_boltzmann * t * t * t * std::abs(t);
   };
-  const Eigen::VectorXd in = at_nodes(exchange.on, varies_in_place, [&](const Eigen::Vector3d& place) {
+  Evaluated in(varies_in_place, [&](const Eigen::Vector3d& place) {
     return defect([&](double time) { return coefficient(place, time) * potential(surroundings(place, time)); });
   });
-  const Eigen::VectorXd out = at_nodes(exchange.on, varies_in_place, [&](const Eigen::Vector3d& place) {
-    return defect([&](double time) { return coefficient(place, time); });
+  Evaluated out(varies_in_place,
+                [&](const Eigen::Vector3d& place) { return defect([&](double time) { return coefficient(place, time); }); });
+  heat.add(exchange.on, varies_in_place, [&](std::size_t i) {
+    const Eigen::Vector3d place = exchange.on.places.col(static_cast<Eigen::Index>(i));
+    return in(place)-out(place) * potential(temperature[exchange.on.nodes[i].value()]);
   });
-  for (std::size_t i = 0; i < exchange.on.nodes.size(); ++i) {
-    const auto row = exchange.on.nodes[i].value();
-    const auto at = static_cast<Eigen::Index>(i);
-    heat[row] += exchange.on.shares[i] * (in[at] - out[at] * potential(temperature[row]));
-  }
 }
 
 }  // namespace
 
-DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
+DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, const LookedAt& step,
                          const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity) {
-  const Defect defect(quadrature, begin, length);
-  Eigen::VectorXd heat = Eigen::VectorXd::Zero(temperature.size());
-  for (const Load& load : model.loads) add(load, defect, heat);
-  for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, heat);
-  for (const NodeId node : model.fixed_nodes) heat[node.value()] = 0;
-  return {heat.cwiseQuotient(capacity), missed_of_held(model, defect) / length};
+  const Defect defect(quadrature, step);
+  MissedHeat missed(step, capacity);
+  for (const Load& load : model.loads) add(load, defect, missed);
+  for (const Exchange& exchange : model.exchanges) add(exchange, defect, temperature, missed);
+  for (const NodeId node : model.fixed_nodes) missed.heat()[node.value()] = 0;
+  return {missed.heat().cwiseQuotient(capacity), missed_of_held(model, defect) / step.length};
 }
 
 }  // namespace scree::thermal

@@ -26,8 +26,19 @@ struct DriveDefect {
   Eigen::VectorXd held;  // of the fixed nodes, in their order [K]
 };
 
-// For a step from `begin` [s]; `temperature` and `capacity` [J/K] are those at its start.
-DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, double begin, double length,
+// A step and what is known of it.
+struct LookedAt {
+  double begin;   // [s]
+  double length;  // [s]
+  // Where anything bends or jumps within it there are 16 times, at all nodes. Else there are the three of Gauss's rule, which
+  // is exact to fifth order, and what misses less than `negligible` at some places of a formula of place is not asked at its
+  // others [K].
+  bool smooth;
+  double negligible;
+};
+
+// `temperature` and `capacity` [J/K] are those at the step's start.
+DriveDefect drive_defect(const HeatModel& model, const std::vector<Look>& quadrature, const LookedAt& step,
                          const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity);
 
 }  // namespace scree::thermal

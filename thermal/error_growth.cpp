@@ -13,9 +13,8 @@ namespace {
 
 // Of a range. A dip of c that lies between two looks only makes steps longer than they should be, which `time_error` tells.
 constexpr int looks = 256;
-// What a capacity may be above its least before errors count for more, as a part of that. Errors of a body that can lose none
-// need the room, and its temperatures mostly do not come back to where c was less.
-constexpr double mild = 0.5;
+// No curve is looked at above it, however much heat a load brings [K].
+constexpr double highest = 5000;
 
 }  // namespace
 
@@ -42,7 +41,7 @@ Eigen::VectorXd ErrorGrowth::at(const Eigen::VectorXd& temperature) const {
   Eigen::VectorXd growth = capacity_at(model_, temperature);
   for_each_shortly(growth.size(), [&](Eigen::Index row) {
     const auto material = static_cast<std::size_t>(properties.material[NodeId(static_cast<std::size_t>(row))]);
-    growth[row] = std::max(1.0, growth[row] / (properties.mass[row] * least_[material]) - mild);
+    growth[row] = std::max(1.0, growth[row] / (properties.mass[row] * least_[material]));
   });
   return growth;
 }
@@ -51,16 +50,22 @@ double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd&
   return growth.size() == 0 ? error.lpNorm<Eigen::Infinity>() : error.cwiseProduct(growth).lpNorm<Eigen::Infinity>();
 }
 
-TemperatureRange given_until(Drives& drives, double until) {
+TemperatureRange given_until(Drives& drives, double until, const Eigen::VectorXd& temperature,
+                             const Eigen::VectorXd& capacity) {
   // No multiples of each other, so that they meet every part of a swing.
-  constexpr int instants = 64;
+  const int instants = drives.vary() ? 64 : 1;
   constexpr double golden = 0.6180339887498949;
   TemperatureRange range;
-  range.include(drives.at(0));
-  for (int i = 1; drives.vary() && i <= instants; ++i) {
+  double least = temperature.minCoeff(), largest = temperature.maxCoeff();
+  for (int i = 0; i < instants; ++i) {
     const double turns = i * golden;
-    range.include(drives.at(until * (turns - std::floor(turns))));
+    const Drive& drive = drives.at(until * (turns - std::floor(turns)));
+    range.include(drive);
+    const Eigen::ArrayXd rates = drive.load.cwiseQuotient(capacity);  // [K/s]
+    least += std::min(0.0, rates.minCoeff()) * until / instants;
+    largest += std::max(0.0, rates.maxCoeff()) * until / instants;
   }
+  range.include(TemperatureRange{std::max(least, 0.0), std::min(largest, highest)});
   return range;
 }
 

@@ -32,7 +32,8 @@ class ErrorGrowth {
   std::vector<double> least_;  // specific heat of each material that varies there [J/kg/K]
 };
 
-// The temperatures that come from outside in the time until `until` [s].
-TemperatureRange given_until(Drives& drives, double until);
+// The temperatures that come from outside in the time until `until` [s], and those that loads alone lead to from these
+// temperatures [K], of nodes that keep all heat and their capacities [J/K].
+TemperatureRange given_until(Drives& drives, double until, const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity);
 
 }  // namespace scree::thermal

@@ -26,6 +26,8 @@ namespace {
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
+// Of what a step may add.
+constexpr double negligible_share = 0.01;
 // How many times the error of a step, of third order, is that of half of it.
 constexpr double twice_too_long = 8;
 
@@ -50,7 +52,9 @@ class HeatRun::Implementation {
     state_.given.include(model_.initial);
     include_drive(0);
     state_.reached.include(state_.temperature);
-    if (growth_.counts()) growth_.include(given_until(drives_, options_.until));
+    if (growth_.counts()) {
+      growth_.include(given_until(drives_, options_.until, state_.temperature, capacity_at(model_, state_.temperature)));
+    }
     find_growth();
     if (model_.lumped) state_.lumping = lumping_.emplace(model_).start();
   }
@@ -176,7 +180,7 @@ class HeatRun::Implementation {
       const ThreadsInScope threads(std::max(1, threads_in_use() - scheme_.scheme->threads_beside(dt)));
       const std::optional<DriveDefect> missed = missed_in(grid.time(), dt, bends);
       const bool finest = grid.level() == StepGrid::max_level;
-      const double may_add = allowed_in(missed, grid);
+      const double may_add = allowed_in(missed, grid, bends);
       if (missed && may_become(missed->free) > may_add && !finest) {
         grid.refine();
         continue;
@@ -233,14 +237,15 @@ class HeatRun::Implementation {
     return grid.level() < StepGrid::max_level && bends.most_between(grid.time(), grid.time() + grid.step()) > seen;
   }
 
-  // What the scheme's own estimate of a step does not see of bends within it [K]; nothing if there are none. A step that is so
-  // long that it may pass outputs, or that nothing has chosen, is looked at where what drives it bends more gently, too.
+  // What the scheme's own estimate of a step does not see of what changes within it [K]; nothing if nothing does. A step that
+  // is so long that it may pass outputs, or that nothing has chosen, is looked at as one in which something bends.
   [[nodiscard]] std::optional<DriveDefect> missed_in(double begin, double length, const TimeBends& bends) const {
+    if (!drives_.vary()) return std::nullopt;
     const bool fixed = options_.integrator == Integrator::explicit_euler;
-    const bool gently = drives_.vary() && (fixed || passed_.any_in(length));
-    if (!gently && !bends.any_between(begin, begin + length)) return std::nullopt;
-    return drive_defect(model_, scheme_.scheme->drive_quadrature(length), begin, length, state_.temperature,
-                        capacity_at(model_, state_.temperature));
+    const bool smooth = !fixed && !passed_.any_in(length) && !bends.any_between(begin, begin + length);
+    const double negligible = smooth ? negligible_share * budget_.of_step(may_become(state_.error), begin, length) : 0;
+    return drive_defect(model_, scheme_.scheme->drive_quadrature(length), {begin, length, smooth, negligible},
+                        state_.temperature, capacity_at(model_, state_.temperature));
   }
 
   // A step with what it misses in its error.
@@ -280,9 +285,11 @@ class HeatRun::Implementation {
   }
 
   // How much error the step that the grid is at may add [K].
-  [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid) const {
+  [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid,
+                                  const TimeBends& bends) const {
     const double smooth = budget_.of_step(may_become(state_.error), grid.time(), grid.step());
-    const bool jumps = missed && std::max(may_become(missed->free), largest(missed->held)) > smooth;
+    const bool jumps = missed && std::max(may_become(missed->free), largest(missed->held)) > smooth &&
+                       bends.may_jump_between(grid.time(), grid.time() + grid.step());
     return jumps ? std::max(smooth, budget_.of_jump()) : smooth;
   }
 

@@ -157,16 +157,17 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
     if (!function.varies_in_place()) {
       const Looks looks(function, Eigen::Vector3d::Zero(), begin, end, steps_of_one);
       const std::vector<Jump> jumps = model.shared_capacity ? std::vector<Jump>() : looks.jumps();
-      seen_.push_back({(end - begin) / steps_of_one, looks.bends(jumps)});
+      seen_.push_back({(end - begin) / steps_of_one, looks.bends(jumps), function.may_jump()});
       jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
       return;
     }
-    may_jump_anywhere_ = may_jump_anywhere_ || function.may_jump();
+    const bool may_jump = function.may_jump();
+    may_jump_anywhere_ = may_jump_anywhere_ || may_jump;
     const Eigen::Matrix3Xd places = places_of();
     const Eigen::Index count = std::min(places.cols(), most_places);
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Vector3d place = places.col(i * places.cols() / count);
-      seen_.push_back({(end - begin) / steps_of_many, Looks(function, place, begin, end, steps_of_many).bends({})});
+      seen_.push_back({(end - begin) / steps_of_many, Looks(function, place, begin, end, steps_of_many).bends({}), may_jump});
     }
   });
   jumps_ = merged(std::move(jumps_));
@@ -179,12 +180,22 @@ std::size_t TimeBends::most_between(double begin, double end) const {
   return most;
 }
 
-bool TimeBends::any_between(double begin, double end) const {
+template <class Counts>
+bool TimeBends::any_between(double begin, double end, const Counts& counts) const {
   return may_jump_anywhere_ ||
          std::any_of(tables_.begin(), tables_.end(),
                      [&](const Function* table) { return table->bends_between(begin, end).value_or(0) > 0; }) ||
-         std::any_of(seen_.begin(), seen_.end(),
-                     [&](const Seen& seen) { return count_between(seen.times, begin - seen.step, end + seen.step) > 0; });
+         std::any_of(seen_.begin(), seen_.end(), [&](const Seen& seen) {
+           return counts(seen) && count_between(seen.times, begin - seen.step, end + seen.step) > 0;
+         });
+}
+
+bool TimeBends::any_between(double begin, double end) const {
+  return any_between(begin, end, [](const Seen&) { return true; });
+}
+
+bool TimeBends::may_jump_between(double begin, double end) const {
+  return any_between(begin, end, [](const Seen& seen) { return seen.may_jump; });
 }
 
 }  // namespace scree::thermal

@@ -31,12 +31,20 @@ class TimeBends {
   // Whether any may lie between the two times: those of a formula are known to a step in time.
   [[nodiscard]] bool any_between(double begin, double end) const;
 
+  // Whether what bends there may jump, so that what a step misses of it is in proportion to the step's length: not a formula
+  // that neither compares, nor chooses, nor rounds.
+  [[nodiscard]] bool may_jump_between(double begin, double end) const;
+
  private:
   // Of a formula at one place.
   struct Seen {
     double step;                // between looks [s]
     std::vector<double> times;  // ascending [s]
+    bool may_jump;
   };
+
+  template <class Counts>
+  [[nodiscard]] bool any_between(double begin, double end, const Counts& counts) const;
 
   std::vector<const Function*> tables_;
   std::vector<Seen> seen_;
