@@ -226,6 +226,19 @@ bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& fr
   return bends_on_the_way(model, &VaryingProperties::specific_heat, from, to, least);
 }
 
+bool capacity_kinks_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
+  if (!model.varying) return false;
+  const auto kinks = [&](const Curve& curve, Eigen::Index row) -> double {
+    const double way = to[row] - from[row];
+    if (curve.constant() || !(std::abs(way) > least)) return 0;
+    const double middle = value(curve, 0.5 * (from[row] + to[row]));
+    const double simpson = (value(curve, from[row]) + 4 * middle + value(curve, to[row])) / 6;
+    const double mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
+    return std::abs((mean - simpson) * way) > least * mean ? 1 : 0;
+  };
+  return at_rows(*model.varying, &VaryingProperties::specific_heat, kinks).maxCoeff() > 0;
+}
+
 bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                    double least) {
   return bends_on_the_way(model, &VaryingProperties::conductivity, from, to, least);

@@ -15,7 +15,8 @@ namespace {
 // A step that passes outputs takes two intervals at least, and each is at most four times the one before: shorter ones than
 // this, of an output interval, are not among the four that it needs.
 constexpr double least_remembered = 0.125 * (1 - 1e-9);
-// Of the tolerance: nodes whose temperature changes by less in a step bend nothing that is seen at outputs.
+// Of the tolerance: nodes whose temperature changes by less in a step, or is changed by less by a kink, bend nothing that is
+// seen at outputs.
 constexpr double least_bending = 0.1;
 
 }  // namespace
@@ -48,9 +49,7 @@ bool PassedOutputs::any_in(double step) const {
 
 StepEnds PassedOutputs::ends_behind(const Way& way, const StepEnds& earlier) const {
   const StepEnd start = start_of(way);
-  const bool bent =
-      start.temperature && capacity_bends_on_the_way(model_, way.from, way.from + way.change, least_bending * tolerance_);
-  return bent ? StepEnds() : followed_by(start, earlier);
+  return start.temperature && bends_in(way) ? StepEnds() : followed_by(start, earlier);
 }
 
 double PassedOutputs::error(const Way& way, const StepEnds& ends) const {
@@ -58,6 +57,12 @@ double PassedOutputs::error(const Way& way, const StepEnds& ends) const {
   if (ends.size() < BetweenSteps::ends_before) return std::numeric_limits<double>::infinity();
   const double end = way.begin + way.length;
   return BetweenSteps(end, way.from + way.change, ends).error(way.begin + every_, end - 0.5 * every_, every_);
+}
+
+bool PassedOutputs::bends_in(const Way& way) const {
+  const Eigen::VectorXd to = way.from + way.change;
+  return capacity_bends_on_the_way(model_, way.from, to, least_bending * tolerance_) ||
+         capacity_kinks_on_the_way(model_, way.from, to, least_bending * tolerance_);
 }
 
 bool PassedOutputs::are_smooth(double begin, double end) const {

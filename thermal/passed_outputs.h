@@ -35,6 +35,7 @@ class PassedOutputs {
   [[nodiscard]] double error(const Way& way, const StepEnds& ends) const;
 
  private:
+  [[nodiscard]] bool bends_in(const Way& way) const;
   [[nodiscard]] bool are_smooth(double begin, double end) const;
   [[nodiscard]] StepEnd start_of(const Way& way) const;
 

@@ -231,6 +231,32 @@ TEST(ChangingDrives, TheErrorOfSurroundingsThatJumpWithinStepsIsEstimatedAndBoun
   }
 }
 
+// A swing of which steps are a third is no parabola in them. What an insulated body has taken up is known in closed form.
+TEST(ChangingDrives, AnInsulatedBodyIsWithinItsTimeErrorWhateverSwingsHeatIt) {
+  const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));
+  const auto mesh = slab_mesh<2>({bar<2>(1, 2, 1, 1)});
+  const Material rock = test::rock();
+  const double heat_capacity = rock.density.value() * rock.specific_heat.value()(300);  // [J/m3/K]
+  for (const double period : {35.0, 60.0, 90.0, 150.0, 240.0, 400.0, 700.0}) {
+    const double frequency = 2 * std::numbers::pi / period, swing = 1.0;  // [rad/s], of the temperature [K]
+    const double power = swing * frequency * heat_capacity;
+    HeatOptions options = options_for(mesh, 300);
+    const std::string formula = fmt::format("{:.17g}*sin({:.17g}*t + 1)", power, frequency);
+    options.sources.push_back({test::on(BodyId{0}, std::nullopt), Function::from_expression(formula, unit, {}), "swing", {}});
+    const HeatModel model = make_heat_model(mesh, rock_only(), contact::ContactSet<2>{}, options);
+    for (const Integrator integrator : integrators) {
+      HeatRun run(model, an_hour(integrator));
+      double largest = 0;
+      run.advance_to(3600, [&](double time) {
+        const double exact = 300 + swing * (std::cos(1.0) - std::cos(frequency * time + 1));
+        largest = std::max(largest, std::abs(run.state().temperature.mean() - exact));
+      });
+      EXPECT_TRUE(run.within_tolerance()) << formula;
+      EXPECT_LE(largest, run.state().time_error) << formula;
+    }
+  }
+}
+
 // What its steps are off by stays; as c rises from 200 to 400 K and falls to 500 K it even grows.
 TEST(ChangingDrives, AnInsulatedBodyKeepsItsToleranceHoweverLongItIsHeated) {
   const auto unit = std::get<UnitConverter>(unit_converter("W/m3", quantity::power_density));

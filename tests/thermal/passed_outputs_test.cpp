@@ -100,6 +100,27 @@ TEST_P(PassedOutputs, AreWithinTheTimeErrorOfAFinerRun) {
   }
 }
 
+// Heat is taken up evenly, so that steps are exact however long they are: its integral over c tells the temperature.
+TEST_P(PassedOutputs, AreWithinTheTimeErrorWhereASpecificHeatKinks) {
+  constexpr double power = 1.8e5;  // [W/m3]
+  const Curve specific_heat = Curve::from_table(LinearTable({250, 507, 1300}, {2000, 1086, 600}));
+  const auto mesh = test::slab_mesh<2>({bar<2>(0.1, 4, 1, 0.05)});
+  HeatOptions options = test::options_for(mesh, 300);
+  options.sources.push_back({test::on(BodyId{0}, std::nullopt), power, "source", {}});
+  Table<MaterialId, Material> materials = test::rock_only();
+  materials[MaterialId{0}].specific_heat = specific_heat;
+  const HeatModel model = make_heat_model(mesh, materials, contact::ContactSet<2>{}, options);
+  HeatRun run(model, two_hours(20, GetParam()));
+  const Followed followed = follow(run);
+  EXPECT_TRUE(run.within_tolerance());
+  for (std::size_t i = 0; i < followed.times.size(); ++i) {
+    const double taken_up = specific_heat.integral(followed.temperatures[i].mean()) - specific_heat.integral(300);  // [J/kg]
+    const double given = power * followed.times[i] / test::rock().density.value();
+    const double capacity = specific_heat(followed.temperatures[i].mean());
+    EXPECT_LE(std::abs(taken_up - given) / capacity, run.state().time_error + 1e-9) << followed.times[i];
+  }
+}
+
 TEST_P(PassedOutputs, ARunThatGoesOnFromAStateRepeatsThemToTheBit) {
   const HeatModel model = heated_pair(400, 100);
   const TimeOptions options = two_hours(20, GetParam());
