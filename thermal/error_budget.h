@@ -17,8 +17,8 @@ class ErrorBudget {
   [[nodiscard]] double of_step(double error, double time, double length) const {
     const double left = tolerance_ / safety_ - error;
     const double spread = left * length / std::max(until_ - time, length);
-    return std::max(share_of_room * (aim * tolerance_ / safety_ - error),
-                    std::clamp(spread, least_spread * tolerance_, most_spread * tolerance_));
+    const double least = least_spread * tolerance_ * std::clamp(left / ((1 - aim) * tolerance_ / safety_), scarcest, 1.0);
+    return std::max(share_of_room * (aim * tolerance_ / safety_ - error), std::clamp(spread, least, most_spread * tolerance_));
   }
 
   // At least, where something jumps within the step: what it misses of that is in proportion to its length, so that no step is
@@ -34,9 +34,11 @@ class ErrorBudget {
   static constexpr double share_of_room = 0.4;
   // Where there is hardly any room a step may add its share, by time, of what is left to the tolerance: errors that do not
   // decay are spread over the whole run. But no more than the larger and no less than the smaller of these shares of the
-  // tolerance, lest they stop the run: it may end above its tolerance then, and says so.
+  // tolerance, lest they stop the run: it may end above its tolerance then, and says so. The least falls with what is left
+  // behind the aim, to this part of itself: else many steps of it alone would lead beyond the tolerance.
   static constexpr double most_spread = 0.02;
   static constexpr double least_spread = 4e-4;
+  static constexpr double scarcest = 0.05;
   // What the step control aims at, of the tolerance.
   static constexpr double aim = 0.9;
 
