@@ -10,7 +10,7 @@ namespace scree::thermal {
 
 namespace {
 
-// Enough to know the defect of a jump to an eighth.
+// Enough to know what is missed of a jump to an eighth.
 std::vector<Look> many_looks() {
   constexpr int looks = 16;
   std::vector<Look> at;
@@ -116,14 +116,15 @@ void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& 
   const auto potential = [&](double t) {
     return exchange.law == Exchange::Law::convection ? t : stefan_boltzmann * t * t * t * std::abs(t);
   };
-  Evaluated in(varies_in_place, [&](const Eigen::Vector3d& place) {
+  Evaluated incoming(varies_in_place, [&](const Eigen::Vector3d& place) {
     return defect([&](double time) { return coefficient(place, time) * potential(surroundings(place, time)); });
   });
-  Evaluated out(varies_in_place,
-                [&](const Eigen::Vector3d& place) { return defect([&](double time) { return coefficient(place, time); }); });
+  Evaluated outgoing(varies_in_place, [&](const Eigen::Vector3d& place) {
+    return defect([&](double time) { return coefficient(place, time); });
+  });
   heat.add(exchange.on, varies_in_place, [&](std::size_t i) {
     const Eigen::Vector3d place = exchange.on.places.col(static_cast<Eigen::Index>(i));
-    return in(place)-out(place) * potential(temperature[exchange.on.nodes[i].value()]);
+    return incoming(place) - outgoing(place) * potential(temperature[exchange.on.nodes[i].value()]);
   });
 }
 

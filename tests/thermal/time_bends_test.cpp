@@ -70,6 +70,16 @@ TEST(TimeBends, AFormulaThatDependsOnPlaceHasBendsInsteadOfJumps) {
   EXPECT_TRUE(bends_of({"t < 500 ? x : 2"}).any_between(400, 600));
 }
 
+TEST(TimeBends, OnlyWhatComparesChoosesOrRoundsMayJumpWhereItBends) {
+  for (const std::string smooth : {"sin(t/50)", "x + sin(t/50)"}) {
+    EXPECT_TRUE(bends_of({smooth}).any_between(0, 1000)) << smooth;
+    EXPECT_FALSE(bends_of({smooth}).may_jump_between(0, 1000)) << smooth;
+  }
+  for (const std::string sudden : {"t < 500 ? x : 2", "t > 700 ? 0.01*(t - 700) : 0"}) {
+    EXPECT_TRUE(bends_of({sudden}).may_jump_between(690, 710)) << sudden;
+  }
+}
+
 TEST(TimeBends, AJumpIsNoBendButWhatBendsBesideItIs) {
   const TimeBends jump = bends_of({"t < 500.3 ? 1 : 2"});
   EXPECT_FALSE(jump.any_between(0, 1000));
