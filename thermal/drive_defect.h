@@ -1,4 +1,4 @@
-// What a step misses of loads, surroundings and temperatures that jump within it.
+// What a step misses of loads, surroundings and temperatures that jump or swing within it.
 //
 // A step sees what drives it at some times only, and its estimate of the error takes it for a parabola between them. With f
 // what comes into a node [W] and w the weights of that parabola's quadrature (TimeScheme::drive_quadrature), the estimate lacks

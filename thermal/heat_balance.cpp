@@ -204,44 +204,47 @@ Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd&
 
 namespace {
 
-bool bends_on_the_way(const HeatModel& model, CurveLists curves, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-                      double least) {
-  constexpr double unlike_ends = 1.5;  // times
-  constexpr double unlike_mean = 0.1;  // of the mean of the ends
+// Whether is(curve, one temperature, another, the mean between) holds of any node that gets warmer or colder by more than
+// `least` [K] and whose curve is not constant.
+template <class Is>
+bool any_on_the_way(const HeatModel& model, CurveLists curves, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                    double least, const Is& is) {
   if (!model.varying) return false;
-  const auto bends = [&](const Curve& curve, Eigen::Index row) -> double {
+  const auto holds = [&](const Curve& curve, Eigen::Index row) -> double {
     const double way = to[row] - from[row];
     if (curve.constant() || !(std::abs(way) > least)) return 0;
-    const double first = value(curve, from[row]), last = value(curve, to[row]);
-    const double middle = 0.5 * (first + last), mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
-    const bool steep = std::max(first, last) > unlike_ends * std::min(first, last);
-    return steep || std::abs(mean - middle) > unlike_mean * middle ? 1 : 0;
+    const double mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
+    return is(curve, from[row], to[row], mean) ? 1 : 0;
   };
-  return at_rows(*model.varying, curves, bends).maxCoeff() > 0;
+  return at_rows(*model.varying, curves, holds).maxCoeff() > 0;
+}
+
+bool bends(const Curve& curve, double from, double to, double mean) {
+  constexpr double unlike_ends = 1.5;  // times
+  constexpr double unlike_mean = 0.1;  // of the mean of the ends
+  const double first = value(curve, from), last = value(curve, to);
+  const double middle = 0.5 * (first + last);
+  const bool steep = std::max(first, last) > unlike_ends * std::min(first, last);
+  return steep || std::abs(mean - middle) > unlike_mean * middle;
 }
 
 }  // namespace
 
 bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
-  return bends_on_the_way(model, &VaryingProperties::specific_heat, from, to, least);
+  return any_on_the_way(model, &VaryingProperties::specific_heat, from, to, least, bends);
 }
 
 bool capacity_kinks_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
-  if (!model.varying) return false;
-  const auto kinks = [&](const Curve& curve, Eigen::Index row) -> double {
-    const double way = to[row] - from[row];
-    if (curve.constant() || !(std::abs(way) > least)) return 0;
-    const double middle = value(curve, 0.5 * (from[row] + to[row]));
-    const double simpson = (value(curve, from[row]) + 4 * middle + value(curve, to[row])) / 6;
-    const double mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
-    return std::abs((mean - simpson) * way) > least * mean ? 1 : 0;
+  const auto kinks = [least](const Curve& curve, double begin, double end, double mean) {
+    const double simpson = (value(curve, begin) + 4 * value(curve, 0.5 * (begin + end)) + value(curve, end)) / 6;
+    return std::abs((mean - simpson) * (end - begin)) > least * mean;
   };
-  return at_rows(*model.varying, &VaryingProperties::specific_heat, kinks).maxCoeff() > 0;
+  return any_on_the_way(model, &VaryingProperties::specific_heat, from, to, least, kinks);
 }
 
 bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                    double least) {
-  return bends_on_the_way(model, &VaryingProperties::conductivity, from, to, least);
+  return any_on_the_way(model, &VaryingProperties::conductivity, from, to, least, bends);
 }
 
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {

@@ -26,7 +26,7 @@ namespace {
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
-// Of what a step may add.
+// What a step misses at some places of a formula of place is nothing below this share of what the step may add.
 constexpr double negligible_share = 0.01;
 // How many times the error of a step, of third order, is that of half of it.
 constexpr double twice_too_long = 8;
@@ -178,9 +178,10 @@ class HeatRun::Implementation {
       }
       const double dt = grid.step();
       const ThreadsInScope threads(std::max(1, threads_in_use() - scheme_.scheme->threads_beside(dt)));
-      const std::optional<DriveDefect> missed = missed_in(grid.time(), dt, bends);
+      const double share = budget_.of_step(may_become(state_.error), grid.time(), dt);
+      const std::optional<DriveDefect> missed = missed_in(grid.time(), dt, bends, share);
       const bool finest = grid.level() == StepGrid::max_level;
-      const double may_add = allowed_in(missed, grid, bends);
+      const double may_add = allowed_in(missed, grid, bends, share);
       if (missed && may_become(missed->free) > may_add && !finest) {
         grid.refine();
         continue;
@@ -238,13 +239,13 @@ class HeatRun::Implementation {
   }
 
   // What the scheme's own estimate of a step does not see of what changes within it [K]; nothing if nothing does. A step that
-  // is so long that it may pass outputs, or that nothing has chosen, is looked at as one in which something bends.
-  [[nodiscard]] std::optional<DriveDefect> missed_in(double begin, double length, const TimeBends& bends) const {
+  // is so long that it may pass outputs, or that nothing has chosen, is looked at as one in which something bends. `share`:
+  // what a smooth step may add [K].
+  [[nodiscard]] std::optional<DriveDefect> missed_in(double begin, double length, const TimeBends& bends, double share) const {
     if (!drives_.vary()) return std::nullopt;
     const bool fixed = options_.integrator == Integrator::explicit_euler;
     const bool smooth = !fixed && !passed_.any_in(length) && !bends.any_between(begin, begin + length);
-    const double negligible = smooth ? negligible_share * budget_.of_step(may_become(state_.error), begin, length) : 0;
-    return drive_defect(model_, scheme_.scheme->drive_quadrature(length), {begin, length, smooth, negligible},
+    return drive_defect(model_, scheme_.scheme->drive_quadrature(length), {begin, length, smooth, negligible_share * share},
                         state_.temperature, capacity_at(model_, state_.temperature));
   }
 
@@ -280,17 +281,16 @@ class HeatRun::Implementation {
     const TimeBends bends(model_, begin, begin + length);
     for (std::int64_t i = 1; i <= count; ++i) {
       const double from = begin + static_cast<double>(i - 1) * dt;
-      accept(take(from, dt, missed_in(from, dt, bends)), dt, begin + static_cast<double>(i) * dt, 0, progress);
+      accept(take(from, dt, missed_in(from, dt, bends, 0)), dt, begin + static_cast<double>(i) * dt, 0, progress);
     }
   }
 
-  // How much error the step that the grid is at may add [K].
-  [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid,
-                                  const TimeBends& bends) const {
-    const double smooth = budget_.of_step(may_become(state_.error), grid.time(), grid.step());
-    const bool jumps = missed && std::max(may_become(missed->free), largest(missed->held)) > smooth &&
+  // How much error the step that the grid is at may add, whose share is that of a smooth one [K].
+  [[nodiscard]] double allowed_in(const std::optional<DriveDefect>& missed, const StepGrid& grid, const TimeBends& bends,
+                                  double share) const {
+    const bool jumps = missed && std::max(may_become(missed->free), largest(missed->held)) > share &&
                        bends.may_jump_between(grid.time(), grid.time() + grid.step());
-    return jumps ? std::max(smooth, budget_.of_jump()) : smooth;
+    return jumps ? std::max(share, budget_.of_jump()) : share;
   }
 
   // What errors of nodes may become, as they are now [K].
