@@ -7,7 +7,6 @@ namespace scree::thermal {
 namespace {
 
 constexpr int looks = 8;
-constexpr double least_way = 1e-3;  // of a node in a step, before its curves are asked [K]
 
 // The values at the step's start and stages less the integral.
 class Defect {
@@ -34,8 +33,8 @@ BentPath::BentPath(const HeatModel& model, const HeatBalance& balance, Drives& d
 bool BentPath::bends(const Instant& from, const std::array<Stage, 2>& stages) const {
   if (held_conductivity_bends_) return true;
   const auto between = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return capacity_bends_on_the_way(model_, a, b, least_way) ||
-           (!balance_.unit_flows().empty() && conductivity_bends_on_the_way(model_, a, b, least_way));
+    return capacity_bends_on_the_way(model_, a, b, from.negligible) ||
+           (!balance_.unit_flows().empty() && conductivity_bends_on_the_way(model_, a, b, from.negligible));
   };
   return between(from.temperature, stages[0].temperature) || between(stages[0].temperature, stages[1].temperature);
 }

@@ -70,7 +70,9 @@ class EnthalpyScheme : public TimeScheme {
     if (const auto missed = path_.missed(from, length, stages, linear_.loss)) {
       const Eigen::VectorXd bent = solver_.estimate(free_.gather(*missed));
       result.error += free_.scatter(bent);
-      result.local = free_.scatter(local.cwiseAbs() + bent.cwiseAbs());
+      // Both count, even where one takes off what the other adds.
+      const Eigen::VectorXd signs = (local + bent).cwiseSign();
+      result.local = free_.scatter(signs.cwiseProduct(local.cwiseAbs() + bent.cwiseAbs()));
     }
     result.stages = {stages.begin(), stages.end()};
     return result;

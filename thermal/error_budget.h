@@ -21,6 +21,9 @@ class ErrorBudget {
     return std::max(share_of_room * (aim * tolerance_ / safety_ - error), std::clamp(spread, least, most_spread * tolerance_));
   }
 
+  // How much a step may take away from an error or add to none, however little room is left [K].
+  [[nodiscard]] double of_any() const { return share_of_room * aim * tolerance_ / safety_; }
+
   // At least, where something jumps within the step: what it misses of that is in proportion to its length, so that no step is
   // short enough for its share by time [K].
   [[nodiscard]] double of_jump() const { return most_spread * tolerance_; }

@@ -50,6 +50,10 @@ double ErrorGrowth::largest(const Eigen::VectorXd& error, const Eigen::VectorXd&
   return growth.size() == 0 ? error.lpNorm<Eigen::Infinity>() : error.cwiseProduct(growth).lpNorm<Eigen::Infinity>();
 }
 
+double ErrorGrowth::largest_rise(const Eigen::VectorXd& error, const Eigen::VectorXd& added, const Eigen::VectorXd& growth) {
+  return largest((error.cwiseAbs() - (error - added).cwiseAbs()).cwiseMax(0), growth);
+}
+
 TemperatureRange given_until(Drives& drives, double until, const Eigen::VectorXd& temperature,
                              const Eigen::VectorXd& capacity) {
   // No multiples of each other, so that they meet every part of a swing.

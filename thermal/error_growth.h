@@ -24,6 +24,9 @@ class ErrorGrowth {
 
   // The largest of what errors may become that grow so [K].
   [[nodiscard]] static double largest(const Eigen::VectorXd& error, const Eigen::VectorXd& growth);
+  // By how much what a step adds to the errors of nodes makes that of any larger; no less than 0 [K].
+  [[nodiscard]] static double largest_rise(const Eigen::VectorXd& error, const Eigen::VectorXd& added,
+                                           const Eigen::VectorXd& growth);
 
  private:
   const HeatModel& model_;

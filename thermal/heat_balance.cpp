@@ -204,47 +204,39 @@ Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd&
 
 namespace {
 
-// Whether is(curve, one temperature, another, the mean between) holds of any node that gets warmer or colder by more than
-// `least` [K] and whose curve is not constant.
-template <class Is>
-bool any_on_the_way(const HeatModel& model, CurveLists curves, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-                    double least, const Is& is) {
-  if (!model.varying) return false;
-  const auto holds = [&](const Curve& curve, Eigen::Index row) -> double {
-    const double way = to[row] - from[row];
-    if (curve.constant() || !(std::abs(way) > least)) return 0;
-    const double mean = (integral(curve, to[row]) - integral(curve, from[row])) / way;
-    return is(curve, from[row], to[row], mean) ? 1 : 0;
-  };
-  return at_rows(*model.varying, curves, holds).maxCoeff() > 0;
-}
-
-bool bends(const Curve& curve, double from, double to, double mean) {
+// Whether a curve is far from one value between two temperatures, or has a kink there, as at a table's row, that puts what it
+// makes of a heat or a flow off by more than `least` [K]: what its mean is off Simpson's rule.
+bool bends(const Curve& curve, double from, double to, double least) {
   constexpr double unlike_ends = 1.5;  // times
   constexpr double unlike_mean = 0.1;  // of the mean of the ends
   const double first = value(curve, from), last = value(curve, to);
-  const double middle = 0.5 * (first + last);
+  const double middle = 0.5 * (first + last), mean = (integral(curve, to) - integral(curve, from)) / (to - from);
   const bool steep = std::max(first, last) > unlike_ends * std::min(first, last);
-  return steep || std::abs(mean - middle) > unlike_mean * middle;
+  if (steep || std::abs(mean - middle) > unlike_mean * middle) return true;
+  const double simpson = (first + 4 * value(curve, 0.5 * (from + to)) + last) / 6;
+  return std::abs((mean - simpson) * (to - from)) > least * mean;
+}
+
+// Of any node that gets warmer or colder by more than `least` [K].
+bool any_bends(const HeatModel& model, CurveLists curves, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+               double least) {
+  if (!model.varying) return false;
+  const auto one_bends = [&](const Curve& curve, Eigen::Index row) -> double {
+    if (curve.constant() || !(std::abs(to[row] - from[row]) > least)) return 0;
+    return bends(curve, from[row], to[row], least) ? 1 : 0;
+  };
+  return at_rows(*model.varying, curves, one_bends).maxCoeff() > 0;
 }
 
 }  // namespace
 
 bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
-  return any_on_the_way(model, &VaryingProperties::specific_heat, from, to, least, bends);
-}
-
-bool capacity_kinks_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least) {
-  const auto kinks = [least](const Curve& curve, double begin, double end, double mean) {
-    const double simpson = (value(curve, begin) + 4 * value(curve, 0.5 * (begin + end)) + value(curve, end)) / 6;
-    return std::abs((mean - simpson) * (end - begin)) > least * mean;
-  };
-  return any_on_the_way(model, &VaryingProperties::specific_heat, from, to, least, kinks);
+  return any_bends(model, &VaryingProperties::specific_heat, from, to, least);
 }
 
 bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                    double least) {
-  return any_on_the_way(model, &VaryingProperties::conductivity, from, to, least, bends);
+  return any_bends(model, &VaryingProperties::conductivity, from, to, least);
 }
 
 Linearised HeatBalance::linearised(const Eigen::VectorXd& temperature, const Drive& drive) const {

@@ -36,12 +36,10 @@ Eigen::VectorXd capacity_at(const HeatModel& model, const Eigen::VectorXd& tempe
 Eigen::VectorXd capacity_slope_at(const HeatModel& model, const Eigen::VectorXd& temperature);
 
 // Whether the heat capacity of a node that gets warmer or colder by more than `least` [K] is far from a single value on the
-// way: temperatures bend there, as in a peak of latent heat.
+// way, as in a peak of latent heat, or puts its temperature off by more than that at a kink, as at a table's rows: temperatures
+// bend there.
 bool capacity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least);
-// Whether a kink in it makes the way of a node's temperature another one by more than `least` [K], as at a table's rows: what
-// the capacity's mean is off Simpson's rule, which has that of a smooth one.
-bool capacity_kinks_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to, double least);
-// As the first of these, of conductivities.
+// The same of conductivities.
 bool conductivity_bends_on_the_way(const HeatModel& model, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                    double least);
 

@@ -195,8 +195,10 @@ class HeatRun::Implementation {
       Eigen::VectorXd growth;
       if (growth_.counts()) growth = growth_.at(state_.temperature + step.change);
       const double local = growth_.largest(step.local, growth), error = growth_.largest(step.error, growth);
-      if (!(local <= may_add)) {
-        refine(grid, local / may_add);
+      const double added = ErrorGrowth::largest_rise(step.error, step.local, growth),
+                   most = std::max(may_add, budget_.of_any());
+      if (!(added <= may_add && local <= most)) {
+        refine(grid, std::max(added / may_add, local / most));
         continue;
       }
       if (missed && error - may_become(state_.error) > may_add && !finest) {
@@ -214,8 +216,9 @@ class HeatRun::Implementation {
       }
       grid.advance();
       state_.next_step = dt;
-      for (double expected = twice_too_long * local; state_.next_step < 4 * dt; expected *= twice_too_long) {
-        if (expected > growth_margin * budget_.of_step(error, grid.time(), 2 * state_.next_step)) break;
+      for (double times = twice_too_long; state_.next_step < 4 * dt; times *= twice_too_long) {
+        if (times * added > growth_margin * budget_.of_step(error, grid.time(), 2 * state_.next_step)) break;
+        if (times * local > growth_margin * budget_.of_any()) break;
         // At the interval's end the next one's grid begins, whose steps may be longer.
         if (!grid.done() && !grid.coarsen()) break;
         state_.next_step *= 2;
@@ -296,7 +299,9 @@ class HeatRun::Implementation {
   // What errors of nodes may become, as they are now [K].
   [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, growth_now_); }
 
-  [[nodiscard]] Instant instant(double time) const { return {time, state_.temperature, state_.error}; }
+  [[nodiscard]] Instant instant(double time) const {
+    return {time, state_.temperature, state_.error, negligible_share * options_.tolerance};
+  }
 
   void include_drive(double time) { state_.given.include(drives_.at(time)); }
 

@@ -60,9 +60,7 @@ double PassedOutputs::error(const Way& way, const StepEnds& ends) const {
 }
 
 bool PassedOutputs::bends_in(const Way& way) const {
-  const Eigen::VectorXd to = way.from + way.change;
-  return capacity_bends_on_the_way(model_, way.from, to, least_bending * tolerance_) ||
-         capacity_kinks_on_the_way(model_, way.from, to, least_bending * tolerance_);
+  return capacity_bends_on_the_way(model_, way.from, way.from + way.change, least_bending * tolerance_);
 }
 
 bool PassedOutputs::are_smooth(double begin, double end) const {

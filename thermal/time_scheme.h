@@ -21,6 +21,7 @@ struct Instant {
   double time = 0;              // [s]
   Eigen::VectorXd temperature;  // fixed nodes at their temperature of this time [K]
   Eigen::VectorXd error;        // estimate of the global error [K]
+  double negligible = 0;        // what an estimate need not see of how a curve bends within the step [K]
 };
 
 // The flows of a step are a weighted mean of those at its stages: heat content changes by exactly that, which is why the

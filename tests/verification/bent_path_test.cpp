@@ -91,6 +91,21 @@ TEST(BentPath, OfGroundThatFreezesAndThawsStaysWithinTheToleranceBehindThePeakOf
   }
 }
 
+// Within half a kelvin c falls by a third and rises by two thirds, in the middle of a step at whose ends it is nearly the same.
+TEST(BentPath, OfADipThatAStepGoesOverIsSeen) {
+  Material rock = test::rock();
+  rock.density = 1900;
+  rock.conductivity = 3.9;
+  rock.specific_heat = table({300, 373, 421, 421.45, 421.6, 700}, {1380, 1380, 1190, 845, 1395, 1395});
+  TimeOptions time;
+  time.until = 12000;
+  time.output_every = 600;
+  for (const double warm : {500.0, 600.0, 700.0}) {
+    expect_true_claims(pair_with(rock, 0.2, 10, 360, 100, Convection{15, warm}), time, {0.05, 0.02, 0.01},
+                       "dip " + std::to_string(warm));
+  }
+}
+
 // The held end drives the rock by the integral of k, which is no parabola between the times at which a step looks at it.
 TEST(BentPath, OfAHeldTemperatureIsThatOfItsPotential) {
   Material rock = test::rock();
