@@ -201,7 +201,8 @@ class HeatRun::Implementation {
         refine(grid, std::max(added / may_add, local / most));
         continue;
       }
-      if (missed && error - may_become(state_.error) > may_add && !finest) {
+      if (missed && error - may_become(state_.error) > may_add && !finest &&
+          ErrorGrowth::largest_rise(step.error, step.local + missed->free, growth) > may_add) {
         ++state_.rejected_steps;
         grid.refine();
         continue;
