@@ -11,6 +11,7 @@
 #include "thermal/drive_defect.h"
 #include "thermal/error_budget.h"
 #include "thermal/error_growth.h"
+#include "thermal/fitting_state.h"
 #include "thermal/fourth_order.h"
 #include "thermal/heat_balance.h"
 #include "thermal/passed_outputs.h"
@@ -60,15 +61,8 @@ class HeatRun::Implementation {
   }
 
   void resume(HeatState state) {
-    const auto is_of_rows = [&](const StepEnd& end) { return end.temperature->size() == state_.temperature.size(); };
-    const bool fits = std::all_of(state.earlier.begin(), state.earlier.end(), is_of_rows) &&
-                      state.temperature.size() == state_.temperature.size() && state.error.size() == state_.error.size() &&
-                      state.lumping.carried.size() == state_.lumping.carried.size() &&
-                      (state.matrix.temperature.size() == 0 || state.matrix.temperature.size() == state_.temperature.size()) &&
-                      state.ledger.by_boundary.size() == state_.ledger.by_boundary.size() &&
-                      state.ledger.by_applied.size() == state_.ledger.by_applied.size() &&
-                      state.ledger.by_surroundings.size() == state_.ledger.by_surroundings.size();
-    if (!fits) throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
+    if (!fits(state, state_))
+      throw InputError(problem("heat state", "", "must have the nodes, boundaries and sources of this scene"));
     state_ = std::move(state);
     scheme_.scheme->take_matrix(state_.matrix);
     find_growth();
@@ -201,8 +195,7 @@ class HeatRun::Implementation {
         refine(grid, std::max(added / may_add, local / most));
         continue;
       }
-      if (missed && error - may_become(state_.error) > may_add && !finest &&
-          ErrorGrowth::largest_rise(step.error, step.local + missed->free, growth) > may_add) {
+      if (missed && error - may_become(state_.error) > may_add && !finest && misses(step, *missed, growth) > may_add) {
         ++state_.rejected_steps;
         grid.refine();
         continue;
@@ -262,6 +255,11 @@ class HeatRun::Implementation {
     if (step.local.size() == 0) return step;  // it was not solved, and has no error
     step.error = held(model_, step.error + missed->free, Eigen::VectorXd::Zero(missed->held.size()));
     return step;
+  }
+
+  // What a step and its drive add to errors, those that grow as they are carried left out [K].
+  [[nodiscard]] static double misses(const Step& step, const DriveDefect& missed, const Eigen::VectorXd& growth) {
+    return std::max(largest(missed.held), ErrorGrowth::largest_rise(step.error, step.local + missed.free, growth));
   }
 
   // As often as a third-order local error needs, from `excess` times what is allowed.
