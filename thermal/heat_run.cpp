@@ -157,6 +157,7 @@ class HeatRun::Implementation {
     find_growth();
     state_.time = time;
     state_.next_step = 0;
+    state_.rate.resize(0);
     state_.earlier.clear();
   }
 
@@ -299,7 +300,7 @@ class HeatRun::Implementation {
   [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, growth_now_); }
 
   [[nodiscard]] Instant instant(double time) const {
-    return {time, state_.temperature, state_.error, negligible_share * options_.tolerance};
+    return {time, state_.temperature, state_.error, state_.rate, negligible_share * options_.tolerance};
   }
 
   void include_drive(double time) { state_.given.include(drives_.at(time)); }
@@ -319,6 +320,7 @@ class HeatRun::Implementation {
     bookkeeper_.book(step, state_.temperature, dt, state_.ledger);
     state_.temperature += step.change;
     state_.error = step.error;
+    if (growth_.counts()) state_.rate = step.change / dt;
     state_.matrix = scheme_.scheme->matrix_origin();
     if (!state_.temperature.allFinite()) {
       throw RunError(

@@ -38,6 +38,7 @@ struct HeatState {
   double time = 0;              // [s]
   Eigen::VectorXd temperature;  // one per row of the model [K]
   Eigen::VectorXd error;        // estimate of the global time error, one per row [K]
+  Eigen::VectorXd rate;         // of the temperatures in the last step; of no size if no c varies or something has jumped [K/s]
   double next_step = 0;         // what the step control would take [s]
   Ledger ledger;
   double time_error = 0;  // bound on |error| at any node and any step so far, with the scheme's safety [K]

@@ -18,7 +18,7 @@ namespace scree::thermal {
 
 namespace {
 
-constexpr const char* format_name = "scree heat state 8";
+constexpr const char* format_name = "scree heat state 9";
 
 using Doubles = std::vector<double>;
 using Counts = std::vector<std::int64_t>;
@@ -26,7 +26,7 @@ using Counts = std::vector<std::int64_t>;
 // A state as plain lists: when it is written, the long ones stay where they are.
 template <class Values>
 struct Lists {
-  Values temperature, error, lumping, by_boundary, by_applied, by_surroundings, matrix, before, before_that;
+  Values temperature, error, rate, lumping, by_boundary, by_applied, by_surroundings, matrix, before, before_that;
   Doubles numbers;
   Counts counts;
 };
@@ -38,6 +38,7 @@ template <class SomeLists, class Use>
 void for_each_list(SomeLists& lists, const Use& use) {
   use("temperature", lists.temperature);
   use("error", lists.error);
+  use("rate", lists.rate);
   use("lumping", lists.lumping);
   use("by_boundary", lists.by_boundary);
   use("by_applied", lists.by_applied);
@@ -71,6 +72,7 @@ WrittenLists pack(const HeatState& state) {
   const Ledger& ledger = state.ledger;
   return {list_of(state.temperature),
           list_of(state.error),
+          list_of(state.rate),
           list_of(state.lumping.carried),
           ledger.by_boundary,
           ledger.by_applied,
@@ -88,6 +90,7 @@ HeatState unpack(const ReadLists& lists) {
   HeatState state;
   state.temperature = vector_of(lists.temperature);
   state.error = vector_of(lists.error);
+  state.rate = vector_of(lists.rate);
   state.lumping = {vector_of(lists.lumping), lists.numbers.at(12)};
   state.ledger.by_boundary = lists.by_boundary;
   state.ledger.by_applied = lists.by_applied;

@@ -60,7 +60,7 @@ class StabilisedScheme : public TimeScheme {
   }
 
   Step step(const Instant& from, double length) override {
-    if (changing_) follow(from);
+    if (changing_) follow(from, length);
     const int stages = stages_for(storage_ ? (1 + BentStorage::most_bend) * length : length, stable_);
     start(from, length);
     if (!moving_.empty()) moving_.fit(balance_, drives_, from.time, length, from.temperature, inverse_);
@@ -82,7 +82,7 @@ class StabilisedScheme : public TimeScheme {
 
   // The local error of a short step is h^3 T'''/18 at most.
   double first_step(const Instant& from, double allowed) override {
-    if (changing_) follow(from);
+    if (changing_) follow(from, 0);
     start({from.time, from.temperature, Eigen::VectorXd::Zero(inverse_.size())}, 1);
     newer_ = start_;
     for (int order = 2; order <= 3; ++order) {
@@ -121,10 +121,10 @@ class StabilisedScheme : public TimeScheme {
     inverse_ = inverse_capacity(model_, linear_.capacity);
   }
 
-  void follow(const Instant& from) {
+  void follow(const Instant& from, double length) {
     linearise(from);
     stable_ = changing_->at(linear_);
-    if (storage_) storage_.fit(from.temperature);
+    if (storage_) storage_.fit(balance_, from.temperature, length * from.rate);
   }
 
   // Calls visit(first row, number of rows) on all threads for all rows.

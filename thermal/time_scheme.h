@@ -21,6 +21,7 @@ struct Instant {
   double time = 0;              // [s]
   Eigen::VectorXd temperature;  // fixed nodes at their temperature of this time [K]
   Eigen::VectorXd error;        // estimate of the global error [K]
+  Eigen::VectorXd rate{};       // of the temperatures in the step before; of no size if it is not known [K/s]
   double negligible = 0;        // what an estimate need not see of how a curve bends within the step [K]
 };
 

@@ -28,6 +28,7 @@
 #include "tools/command_line/manual.h"
 #include "tools/render_command.h"
 #include "tools/report/report_command.h"
+#include "tools/run/keys.h"
 #include "tools/run/packing_stage.h"
 #include "tools/run/preflight.h"
 #include "tools/run/run_scene.h"
@@ -45,6 +46,7 @@ struct Arguments {
   std::string scene;
   std::string directory;
   std::vector<std::string> overrides;
+  std::string planned;
   std::string prefix;
   std::string shell;
   bool quiet = false;
@@ -90,8 +92,11 @@ scree::Scene read_scene(const Arguments& arguments, scree::Progress& progress, c
 
 int run(const Arguments& arguments) {
   scree::Progress progress(progress_mode(arguments));
-  const scree::Scene scene =
-      read_scene(arguments, progress, [&] { return scree::read_scene(arguments.scene, arguments.overrides); });
+  const scree::Scene scene = read_scene(arguments, progress, [&] {
+    scree::Scene read = scree::read_scene(arguments.scene, arguments.overrides);
+    if (!arguments.planned.empty()) scree::run::expect_planned(read, arguments.planned, arguments.error_estimate);
+    return read;
+  });
   const std::string directory = arguments.directory.empty() ? default_directory(arguments.scene) : arguments.directory;
   return scree::run::run_scene(scene, {directory}, scree::run::Start::fresh, progress, space_errors(arguments));
 }
@@ -189,6 +194,8 @@ void declare_running(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "run a scene");
   add_scene(*run, arguments);
   run->add_option("--out", arguments.directory, "where the results go (default: out/ and the scene's name)");
+  run->add_option("--planned", arguments.planned, "for studies: refuse a scene of another key, as it has changed since")
+      ->group("");
   CLI::App* resume = app.add_subcommand("resume", "go on with an interrupted run from its last finished time");
   resume->add_option("directory", arguments.directory, "the interrupted run's --out")->required();
   for (CLI::App* command : {run, resume}) {

@@ -139,6 +139,21 @@ TEST(StudyCommand, StopsItsRunsWhenInterruptedAndGoesOnLater) {
   EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
 }
 
+TEST(StudyCommand, MakesNoRunOfASceneThatHasChangedSinceItWasPlanned) {
+  const OneStudy study(slow_study());
+  const fs::path scene = study.file.parent_path() / "scene.yaml";
+  const std::string planned = contents(scene);
+  const std::string change = fmt::format("sed -i 's/temperature: 400/temperature: 500/' {}", scene.string());
+  const Ended ended = while_it_runs(study, change + "; wait $study");
+  EXPECT_EQ(ended.status, 1) << ended.text;
+  const study::Table table = study.table();
+  EXPECT_THAT(table.find("status")->texts, testing::ElementsAre("complete", "crashed", "crashed", "crashed"));
+  EXPECT_THAT(table.find("reason")->texts[3], HasSubstr("has changed since this run was planned"));
+  std::ofstream(scene) << planned;
+  EXPECT_EQ(study.run().status, 0);
+  EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
+}
+
 TEST(StudyCommand, RecordsARunThatFailsWithItsReasonAndMakesTheOthers) {
   const OneStudy study(R"(
 scene: scene.yaml

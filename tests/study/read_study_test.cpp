@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tools/study/scene_key.h"
+
 namespace scree::study {
 namespace {
 
@@ -49,6 +51,21 @@ report: [heat.time_error]
   EXPECT_EQ(levels[1].text, "{\"table\": \"/k.csv\"}");
   EXPECT_EQ(levels[2].text, "{expression: 1 + T, unit: W/m/K}");
   EXPECT_EQ(levels[3].text, "{table");
+}
+
+TEST(ReadStudy, VariesOneNumberOfAVector) {
+  const auto runs = plan(study_of(R"(
+scene: scene.yaml
+set: ["bodies.plate.box.size.0=2 m"]
+vary: [{key: "bodies.block.box.size[2]", range: {from: 10 cm, to: 20 cm, points: 2}}]
+report: [heat.time_error]
+)"));
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[1].point.levels[0].number, 0.2);
+  EXPECT_THAT(runs[1].overrides,
+              testing::ElementsAre("bodies.plate.box.size.0=2 m", testing::StartsWith("bodies.block.box.size[2]=")));
+  EXPECT_FALSE(scene_path("bodies.block.box.size[2][0]"));
+  EXPECT_FALSE(scene_path("contact.stiffness_factor[0]"));
 }
 
 TEST(ReadStudy, SpacesARangeByDifferencesOrByRatios) {

@@ -27,7 +27,7 @@ TEST(BentStorage, IsThereOnlyWhereASpecificHeatDependsOnTemperature) {
 TEST(BentStorage, FollowsTheEnthalpyToSecondOrder) {
   const HeatModel model = bar_of(test::curve("500 + T + 1e-3*(T - 300)^2"));
   BentStorage storage(model);
-  storage.fit(model.initial);
+  storage.fit(HeatBalance(model), model.initial, {});
   const Eigen::VectorXd capacity = capacity_at(model, model.initial);
   const Eigen::Index row = model.initial.size() - 1;
   const auto off = [&](double heat) {
@@ -41,10 +41,24 @@ TEST(BentStorage, FollowsTheEnthalpyToSecondOrder) {
   }
 }
 
+TEST(BentStorage, GoesThroughTheEnthalpyBehindAKinkWhereTheNodeIsExpected) {
+  const HeatModel model = bar_of(Curve::from_table(LinearTable({200, 302, 400}, {800, 800, 1000})));
+  const HeatBalance balance(model);
+  const Eigen::VectorXd way = Eigen::VectorXd::Constant(model.initial.size(), 5);
+  const Eigen::VectorXd capacity = capacity_at(model, model.initial);
+  const Eigen::Index row = model.initial.size() - 1;
+  const double heat = balance.stored(model.initial, model.initial + way)[row] / capacity[row];
+  BentStorage storage(model);
+  storage.fit(balance, model.initial, {});
+  EXPECT_GT(BentStorage::rise(storage.slope()[row], heat) - 5, 0.01) << "by the curve at the start";
+  storage.fit(balance, model.initial, way);
+  EXPECT_NEAR(BentStorage::rise(storage.slope()[row], heat), 5, 1e-12);
+}
+
 TEST(BentStorage, LeavesFixedNodesAsWarmAsTheyAreHeld) {
   const HeatModel model = bar_of(test::curve("500 + T"));
   BentStorage storage(model);
-  storage.fit(model.initial);
+  storage.fit(HeatBalance(model), model.initial, {});
   ASSERT_FALSE(model.fixed_nodes.empty());
   for (const NodeId node : model.fixed_nodes) EXPECT_EQ(BentStorage::rise(storage.slope()[node.value()], 7), 7);
 }

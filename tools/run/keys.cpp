@@ -6,6 +6,9 @@
 #include <iterator>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "engine/base/check.h"
 #include "engine/base/hash.h"
 #include "engine/base/version.h"
 
@@ -126,6 +129,12 @@ std::string run_key(const Scene& scene, bool space_errors) {
   if (scene.packing) add_content(hash, *scene.packing);
   if (scene.initial_field) add_frame(hash, *scene.initial_field);
   return hash.hex();
+}
+
+void expect_planned(const Scene& scene, const std::string& key, bool space_errors) {
+  if (run_key(scene, space_errors) == key) return;
+  throw RunError(fmt::format("{}: it, or a file that it names, has changed since this run was planned. Call the study again",
+                             scene.file.string()));
 }
 
 template <int dim>

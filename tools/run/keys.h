@@ -23,6 +23,9 @@ std::string fall_key(const Scene& scene);
 // All that a whole run depends on: the effective scene, the files it names, and whether errors in space are estimated.
 std::string run_key(const Scene& scene, bool space_errors);
 
+// Throws RunError where that is another key, as somebody has changed the scene or a file that it names.
+void expect_planned(const Scene& scene, const std::string& key, bool space_errors);
+
 // Of the effective scene, for the summary.
 std::string scene_hash(const Scene& scene);
 

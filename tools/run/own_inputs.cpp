@@ -42,6 +42,16 @@ bool is_result(const fs::path& file, const RunFiles& files) {
   });
 }
 
+// What a run removes or replaces, but for its packing, which may have been put there for it.
+std::vector<fs::path> results(const RunFiles& files) {
+  std::vector<fs::path> all{files.scene(), files.probes(), files.restart(), files.page()};
+  for (const char* name : series) {
+    all.push_back(files.picture(name));
+    all.push_back(files.directory / fmt::format("{}.pvd", name));
+  }
+  return all;
+}
+
 [[noreturn]] void refuse(const RunFiles& files, const std::string& rule, const std::string& suggestion) {
   Problem problem;
   problem.key = "--out";
@@ -61,8 +71,10 @@ void refuse_own_inputs(const Scene& scene, const RunFiles& files) {
            "Choose another --out");
   }
   std::error_code ignored;
-  if (fs::exists(files.scene(), ignored) && !fs::exists(files.summary(), ignored)) {
-    refuse(files, "holds a scene.yaml that no run has left, and a run writes its scene there, with every default filled in",
+  if (fs::exists(files.summary(), ignored)) return;
+  for (const fs::path& file : results(files)) {
+    if (!fs::exists(file, ignored)) continue;
+    refuse(files, fmt::format("holds a {} that no run has left, and a run removes or replaces it", file.filename().string()),
            "Choose another --out, or another name for that file");
   }
 }

@@ -120,7 +120,7 @@ std::vector<std::string> Conductor::command_of(const PlannedRun& run, bool resum
   if (resumes) {
     words = {"resume", own.directory.string()};
   } else {
-    words = {"run", study_.scene.string(), "--out", own.directory.string()};
+    words = {"run", study_.scene.string(), "--out", own.directory.string(), "--planned", run.directory};
     for (const std::string& assignment : run.overrides) words.insert(words.end(), {"--set", assignment});
   }
   const int sharing = largest_run_ == 0 ? 1 : means_.jobs;
@@ -167,8 +167,11 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
 // What cannot be gone on with, such as a state that is damaged.
 void Conductor::begin_anew(const PlannedRun& run) {
   const run::RunFiles own = files_.run(run.directory);
-  fs::remove(own.scene());
-  fs::remove(own.summary());
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(own.directory)) left.push_back(entry.path());
+  for (const fs::path& file : left) {
+    if (file != own.packing()) fs::remove_all(file);
+  }
   waiting_.push_back(&run);
   show(fmt::format("run {} is begun anew: {}", run.number, read_outcome(files_, run.directory).reason));
 }

@@ -27,6 +27,10 @@ std::optional<std::string> item_number(const std::string& part) {
   return is_number(number) ? std::optional(number) : std::nullopt;
 }
 
+bool is_vector(const KeyNode& node) {
+  return node.key != nullptr && node.key->count != Count::one;
+}
+
 // One of the paths of the table with the names and numbers that a user has written, as far as there are any.
 std::string filled_in(const std::string& pattern, const std::vector<std::string>& written) {
   std::string path;
@@ -52,8 +56,15 @@ bool ScenePath::holds(const ScenePath& other) const {
 std::optional<ScenePath> scene_path(const std::string& path) {
   ScenePath found;
   const KeyNode* node = &scene_keys().root();
+  bool is_one_of_a_vector = false;
   for (const std::string& part : split_path(path)) {
+    if (is_one_of_a_vector) return std::nullopt;
     const KeyNode* items = node->find("[]");
+    if (is_vector(*node) && item_number(part)) {
+      is_one_of_a_vector = true;
+      found.parts.push_back(*item_number(part));
+      continue;
+    }
     const auto number = items == nullptr ? std::nullopt : item_number(part);
     if (!number && !is_name(part)) return std::nullopt;
     const KeyNode* named = node->find(part);

@@ -9,9 +9,10 @@
 
 namespace scree::study {
 
-// `heat.boundaries[0].temperature` or `heat.boundaries.0.temperature`, which are the same.
+// `heat.boundaries[0].temperature` or `heat.boundaries.0.temperature`, which are the same; or one number of a vector,
+// `bodies.cube.box.size[2]`.
 struct ScenePath {
-  const KeyNode* node = nullptr;   // it, with its row, and those below it
+  const KeyNode* node = nullptr;   // it, with its row, and those below it; that of the vector for one of its numbers
   std::vector<std::string> parts;  // heat, boundaries, 0, temperature
 
   // The same key, or one below this.
