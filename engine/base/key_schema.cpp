@@ -65,9 +65,12 @@ Json leaf_schema(const Key& key) {
         for (const std::string& word : key.words) numbers.push_back(std::stoi(word));
         return Json{{"enum", numbers}};
       }
+      if (key.words == std::vector<std::string>{"true"}) return Json{{"enum", Json::array({true})}};
       return Json{{"enum", key.words}};
     case KeyType::name:
       return Json{{"type", "string"}, {"pattern", name_pattern}};
+    case KeyType::text:
+      return Json{{"type", Json::array({"string", "number"})}};  // a title or a formula that is one number
     default:
       return Json{{"type", "string"}};
   }

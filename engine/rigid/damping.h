@@ -28,6 +28,8 @@ class Damping {
   [[nodiscard]] Table<BlockId, double> net_forces(const World& world) const;
   // Mean over the free blocks of the magnitude of the net force of the last step, damping excluded [N].
   [[nodiscard]] double mean_net_force(const World& world) const;
+  // Of one of them, by its mass [m/s2].
+  [[nodiscard]] const Eigen::Vector3d& acceleration(BlockId block) const { return motions_[block.index()].acceleration; }
   // Of one of them; of a sleeping one, that of the last step in which it was awake [N].
   [[nodiscard]] double net_force(const World& world, BlockId block) const;
 

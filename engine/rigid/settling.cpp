@@ -11,6 +11,7 @@
 #include "engine/packing/penetration.h"
 #include "engine/rigid/damping.h"
 #include "engine/rigid/fall.h"
+#include "engine/rigid/falling_blocks.h"
 #include "engine/rigid/polyhedron_shape.h"
 #include "engine/rigid/rest.h"
 #include "engine/rigid/resting_groups.h"
@@ -87,6 +88,7 @@ class Settling {
         options_(options),
         world_(mesh, materials, options),
         damping_(world_, options.gravity),
+        falling_(world_, options.gravity),
         bounds_(mesh, options.gravity) {}
 
   packing::SettleReport run(const FrameSink& frame, const SettleProgress& progress);
@@ -105,6 +107,7 @@ class Settling {
   const SettleOptions& options_;
   World world_;
   Damping damping_;
+  FallingBlocks falling_;  // where there is drag
   SceneBounds bounds_;
   std::int64_t half_steps_ = 0;  // time is counted in them, for the last part is made in half steps
   bool halved_ = false;
@@ -113,7 +116,7 @@ class Settling {
 };
 
 bool Settling::has_slowed(const Motion& motion, double viscous) const {
-  return drag_has_acted(viscous) && motion.rms_speed < slow_speed(viscous);
+  return drag_has_acted(viscous) && motion.rms_speed < slow_speed(viscous) && !falling_.any(world_);
 }
 
 // Why a pile that is not at rest is not, in words and numbers.
@@ -121,6 +124,7 @@ std::string Settling::obstacle(const RestWatch& watch, double viscous) const {
   if (world_.hanging() > 0) return fmt::format("{} blocks had not been let go yet", world_.hanging());
   if (viscous == 0) return watch.obstacle();
   if (!drag_has_acted(viscous)) return fmt::format("the drag was still on, for it takes {:.3g} s to act", 1 / viscous);
+  if (const auto block = falling_.any(world_)) return fmt::format("the drag was still on, for block {} fell", block->value());
   return fmt::format("the drag was still on, for the root mean square speed had not fallen below {:.3g} m/s yet",
                      slow_speed(viscous));
 }
@@ -134,6 +138,7 @@ Motion Settling::advance(double viscous) {
   damping_.slow_down(world_, options_.local_damping, viscous, step);
   world_.step(step, options_.iterations);
   damping_.observe(world_, step);
+  if (viscous > 0) falling_.observe(world_, damping_);
   deepest_overlap_ = std::max(deepest_overlap_, world_.deepest_overlap());
   half_steps_ += halved_ ? 1 : 2;
   for (const BlockId block : take_lost(world_, bounds_)) lost_.push_back(block);

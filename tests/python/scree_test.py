@@ -9,10 +9,12 @@ import math
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import types
 import unittest
 
@@ -342,6 +344,31 @@ class Module(unittest.TestCase):
         for count in (0, -1, 10**6):
             with self.assertRaisesRegex(ValueError, "1 to 1024"):
                 scree.use_threads(count)
+
+    def test_a_process_made_by_fork_heats_like_its_parent(self):
+        scene = scree.Scene.from_text(STONES)
+        packing = scree.settle(scene)
+        heating = scree.Heating(scene, packing)
+        heating.advance_to(3600)
+        with tempfile.NamedTemporaryFile(suffix=".npy") as file:
+            child = os.fork()
+            if child == 0:
+                forked = scree.Heating(scene, packing)
+                forked.advance_to(3600)
+                numpy.save(file.name, forked.temperature)
+                os._exit(0)
+            ended = 0
+            for _ in range(600):
+                ended, status = os.waitpid(child, os.WNOHANG)
+                if ended:
+                    break
+                time.sleep(0.1)
+            if not ended:
+                os.kill(child, signal.SIGKILL)
+                os.waitpid(child, 0)
+            self.assertTrue(ended, "it hung")
+            self.assertEqual(status, 0)
+            self.assertTrue((numpy.load(file.name) == heating.temperature).all())
 
     def test_everything_has_a_docstring(self):
         for name in ["Scene", "Packing", "Heating"]:

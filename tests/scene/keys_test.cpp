@@ -291,6 +291,8 @@ TEST(SceneKeys, TheSchemaSaysWhatTheTableSays) {
   EXPECT_EQ(body["properties"]["blocks"]["enum"], Json::array({"whole", "per_element"}));
   EXPECT_EQ(body["allOf"][0]["oneOf"].size(), 4u);
   EXPECT_EQ(schema["properties"]["dimension"]["enum"], Json::array({2, 3}));
+  EXPECT_EQ(schema["properties"]["contact"]["properties"]["insulating"]["enum"], Json::array({true}))
+      << "as an editor reads it";
   EXPECT_EQ(schema["properties"]["output"]["properties"]["probes"]["additionalProperties"]["anyOf"].size(), 2u);
   for (const auto& [name, section] : schema["properties"].items()) EXPECT_TRUE(section.contains("description")) << name;
 }

@@ -56,6 +56,7 @@ std::size_t written_frames(const std::filesystem::path& directory) {
 void stop_after_some_frames(pid_t child, const std::filesystem::path& directory, int signal) {
   for (int i = 0; i < 2000 && written_frames(directory) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, signal);
+  if (signal == SIGTERM) kill(child, signal);  // as `timeout` does: first its child, then the group
 }
 
 class Interruption : public ::testing::TestWithParam<int> {

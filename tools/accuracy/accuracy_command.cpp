@@ -16,6 +16,7 @@
 #include "tools/accuracy/analysis.h"
 #include "tools/accuracy/report.h"
 #include "tools/run/child_process.h"
+#include "tools/run/forget_run.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/output_place.h"
 #include "tools/run/run_files.h"
@@ -98,11 +99,8 @@ class Study {
   [[nodiscard]] Measured make(const Rung& rung, std::size_t number) const {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
-    // Of an earlier call: a run that is refused leaves them. A scene without its summary would count as somebody else's.
-    if (fs::exists(files.summary())) {
-      fs::remove(files.scene());
-      fs::remove(files.summary());
-    }
+    // Of an earlier call: a run that is refused leaves it.
+    if (fs::exists(files.summary())) run::forget_run(files);
     const RunFiles first{run_directory(0)};
     if (number > 0 && scene_.settle && fs::exists(first.packing())) {
       fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);

@@ -1,5 +1,7 @@
 #include "tools/python/bindings.h"
 
+#include <pthread.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -56,6 +58,8 @@ PYBIND11_MODULE(scree, module) {
       },
       py::arg("count"),
       "What this thread of Python calls from here on computes with so many threads. No result depends on it.");
+  // The threads of OpenMP do not come along, and it would wait for them.
+  pthread_atfork(nullptr, nullptr, [] { scree::use_threads(1); });
   scree::python::bind_errors(module);
   scree::python::bind_scene(module);
   scree::python::bind_packing(module);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/threads.h"
+#include "tools/run/forget_run.h"
 #include "tools/run/interrupt.h"
 #include "tools/study/outcome.h"
 #include "tools/study/packings.h"
@@ -166,14 +167,10 @@ void Conductor::finish(Active& active, const run::ChildEnd& end) {
 
 // What cannot be gone on with, such as a state that is damaged.
 void Conductor::begin_anew(const PlannedRun& run) {
-  const run::RunFiles own = files_.run(run.directory);
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(own.directory)) left.push_back(entry.path());
-  for (const fs::path& file : left) {
-    if (file != own.packing()) fs::remove_all(file);
-  }
+  const std::string reason = read_outcome(files_, run.directory).reason;
+  run::forget_run(files_.run(run.directory));
   waiting_.push_back(&run);
-  show(fmt::format("run {} is begun anew: {}", run.number, read_outcome(files_, run.directory).reason));
+  show(fmt::format("run {} is begun anew: {}", run.number, reason));
 }
 
 void Conductor::stop_all() {
