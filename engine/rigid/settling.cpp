@@ -107,7 +107,7 @@ class Settling {
   const SettleOptions& options_;
   World world_;
   Damping damping_;
-  FallingBlocks falling_;  // where there is drag
+  FallingBlocks falling_;
   SceneBounds bounds_;
   std::int64_t half_steps_ = 0;  // time is counted in them, for the last part is made in half steps
   bool halved_ = false;
@@ -122,7 +122,10 @@ bool Settling::has_slowed(const Motion& motion, double viscous) const {
 // Why a pile that is not at rest is not, in words and numbers.
 std::string Settling::obstacle(const RestWatch& watch, double viscous) const {
   if (world_.hanging() > 0) return fmt::format("{} blocks had not been let go yet", world_.hanging());
-  if (viscous == 0) return watch.obstacle();
+  if (viscous == 0) {
+    const auto block = falling_.any(world_);
+    return watch.obstacle() + (block ? fmt::format(", block {} fell", block->value()) : "");
+  }
   if (!drag_has_acted(viscous)) return fmt::format("the drag was still on, for it takes {:.3g} s to act", 1 / viscous);
   if (const auto block = falling_.any(world_)) return fmt::format("the drag was still on, for block {} fell", block->value());
   return fmt::format("the drag was still on, for the root mean square speed had not fallen below {:.3g} m/s yet",
@@ -138,7 +141,7 @@ Motion Settling::advance(double viscous) {
   damping_.slow_down(world_, options_.local_damping, viscous, step);
   world_.step(step, options_.iterations);
   damping_.observe(world_, step);
-  if (viscous > 0) falling_.observe(world_, damping_);
+  falling_.observe(world_, damping_);
   deepest_overlap_ = std::max(deepest_overlap_, world_.deepest_overlap());
   half_steps_ += halved_ ? 1 : 2;
   for (const BlockId block : take_lost(world_, bounds_)) lost_.push_back(block);
@@ -162,7 +165,7 @@ packing::SettleReport Settling::run(const FrameSink& frame, const SettleProgress
     frames.offer(world_, time());
     const bool rest = watch.observe(world_, motion, time());
     if (viscous == 0) groups.observe(world_, damping_, time());
-    report.at_rest = rest && viscous == 0 && world_.hanging() == 0;
+    report.at_rest = rest && viscous == 0 && world_.hanging() == 0 && !falling_.any(world_);
     if (viscous > 0 && world_.hanging() == 0 && has_slowed(motion, viscous)) {
       viscous = 0;
       halved_ = true;

@@ -1,4 +1,6 @@
 // When a pile counts as at rest.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/rigid/settle.h"
@@ -69,6 +71,21 @@ TEST(Rest, OfWhatDragHasNotActedOnYetIsNotSaidToBeFast) {
   EXPECT_FALSE(packing.settled->at_rest);
   EXPECT_NE(packing.settled->criterion.find("the drag was still on, for it takes 10 s to act"), std::string::npos)
       << packing.settled->criterion;
+}
+
+// Where gravity is weak a fall begins so slowly that it is rest by the mean speed and force.
+TEST(Rest, ABlockThatFallsAtATenthOfAPercentOfGravityIsNotAtRest) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+  for (int i = 0; i < 36; ++i) add_box(mesh, {0.1, 0.1, 0.1}, {0.3 * (i % 6) - 1, 0.3 * (i / 6) - 1, 0.05}, false);
+  const BlockId last = add_box(mesh, {0.1, 0.1, 0.1}, {1.5, 0, 3}, false);
+  SettleOptions options;
+  options.gravity = {0, 0, -0.01};
+  options.limit = 60;
+  const packing::Packing<3> packing = settle(mesh, testing::material(0.6), options);
+  EXPECT_TRUE(packing.settled->at_rest) << packing.settled->criterion;
+  EXPECT_GT(packing.settled->simulated_time, std::sqrt(2 * 2.95 / 0.01));
+  EXPECT_NEAR(packing.poses[last].translation.z(), -2.95, 1e-3);
 }
 
 }  // namespace

@@ -137,8 +137,9 @@ void Conductor::collect() {
     // As soon as the run has written its packing, and before its own heat.
     if (active_[i].settling && publish_packing(files_, *active_[i].run)) active_[i].settling.reset();
     if (end) {
-      finish(active_[i], *end);
+      Active ended = std::move(active_[i]);
       active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
+      finish(ended, *end);
     } else {
       ++i;
     }
@@ -175,7 +176,14 @@ void Conductor::begin_anew(const PlannedRun& run) {
 
 void Conductor::stop_all() {
   for (const Active& active : active_) active.process.interrupt();
-  for (Active& active : active_) write_outcome(files_, active.run->directory, active.process.wait());
+  for (Active& active : active_) {
+    const run::ChildEnd end = active.process.wait();
+    try {
+      write_outcome(files_, active.run->directory, end);
+    } catch (const std::exception&) {
+      // The study ends for a reason that is told, as a full disk, which leaves no room for this either. All are waited for.
+    }
+  }
   active_.clear();
 }
 
