@@ -45,6 +45,28 @@ class BentStorage {
     return bend == slope * heat ? heat - 0.5 * bend * heat : heat - bend * (heat - 0.5 * bend / slope);
   }
 
+  // How much warmer nodes are than T0 + x(D) on their way through a step, in the mean, beside a third of what they are at its
+  // end [K]. `heat`: D at the end; `change`: of the temperatures. Of no size if no c bends by more than makes `negligible` [K].
+  [[nodiscard]] Eigen::VectorXd stray(const HeatBalance& balance, const Eigen::VectorXd& temperature,
+                                      const Eigen::VectorXd& heat, const Eigen::VectorXd& change, double negligible) const {
+    if (!capacity_bends_on_the_way(model_, temperature, temperature + change, negligible)) return {};
+    constexpr int looks = 8;
+    const Eigen::VectorXd stored = capacity_at(model_, temperature).cwiseProduct(heat);  // [J]
+    const auto beside = [&](double part, const Eigen::VectorXd& warmer) -> Eigen::VectorXd {
+      Eigen::VectorXd at = warmer;
+      for_each_shortly(at.size(), [&](Eigen::Index row) { at[row] -= rise(slope_[row], part * heat[row]); });
+      return at;
+    };
+    Eigen::VectorXd mean = beside(1, change) / -3;
+    for (int i = 0; i < looks; ++i) {
+      const double part = (i + 0.5) / looks;
+      const Eigen::VectorXd guess = temperature + part * change;
+      mean += beside(part, balance.temperature_after(temperature, part * stored, guess) - temperature) / looks;
+    }
+    for (const NodeId node : model_.fixed_nodes) mean[node.value()] = 0;
+    return mean;
+  }
+
   // q of each row [1/K].
   [[nodiscard]] const Eigen::VectorXd& slope() const { return slope_; }
 

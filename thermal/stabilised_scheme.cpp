@@ -11,8 +11,11 @@
 //
 // Local error, beside that of rkl2.h: the tangent leaves out h^3/6 F''(D, D), and F(T1) - (F(T0) - J x) is half of F''(D, D),
 // so -h/3 C^-1 times that is added; of temperatures that are held, which may be back by then, the mean of it over the step. A
-// coefficient that changes in time bends F in the same way. Errors are of T1, C(T0)/C(T1) times what they are of D. The global
-// error is carried by the scheme itself as a second column of each product.
+// coefficient that changes in time bends F in the same way. Where c has a kink on the way temperatures are beside x(D) within
+// the step, too (BentStorage::stray): J times their mean counts, of which no more than twice the largest can come about. Errors
+// are of T1, C(T0)/C(T1) times what they are of D. The global error is carried by the scheme itself as a second column of each
+// product.
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -191,12 +194,18 @@ class StabilisedScheme : public TimeScheme {
     const Eigen::VectorXd heating = balance_.heating(end, drive);
     const Eigen::VectorXd capacity = capacity_at(model_, end);
     const auto beside = beside_held(from, length);
+    const Eigen::VectorXd stray =
+        storage_ ? storage_.stray(balance_, from.temperature, newer_.col(0), result.change, from.negligible)
+                 : Eigen::VectorXd();
+    const Eigen::VectorXd lost = stray.size() > 0 ? balance_.lost(stray, linear_) : stray;
+    const double most = stray.size() > 0 ? 2 * stray.lpNorm<Eigen::Infinity>() : 0;
     for_each_shortly(start_.rows(), [&](Eigen::Index row) {
       if (inverse_[row] == 0) return;
       const double along = start_(row, 0) - older_(row, 0);
       const double bent = length * inverse_[row] * heating[row] - along;
       double local = estimate * (start_(row, 0) - newer_(row, 0) - 0.5 * older_(row, 0)) - bent / 3;
       if (beside) local += length * inverse_[row] * (*beside)[row];
+      if (lost.size() > 0) local += std::clamp(length * inverse_[row] * lost[row], -most, most);
       const double shrinks = linear_.capacity[row] / capacity[row];
       result.error[row] = shrinks * (from.error[row] + newer_(row, 1) + local);
       result.local[row] = shrinks * local;

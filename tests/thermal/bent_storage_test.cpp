@@ -55,6 +55,31 @@ TEST(BentStorage, GoesThroughTheEnthalpyBehindAKinkWhereTheNodeIsExpected) {
   EXPECT_NEAR(BentStorage::rise(storage.slope()[row], heat), 5, 1e-12);
 }
 
+// Against the mean by a thousand looks; and where nothing bends none is asked for.
+TEST(BentStorage, TellsHowFarTemperaturesStrayFromTheParabolaOnTheirWay) {
+  const HeatModel model = bar_of(Curve::from_table(LinearTable({200, 302, 302.5, 303, 400}, {800, 800, 1600, 800, 800})));
+  const HeatBalance balance(model);
+  const Eigen::VectorXd way = Eigen::VectorXd::Constant(model.initial.size(), 5);
+  const Eigen::VectorXd capacity = capacity_at(model, model.initial);
+  const Eigen::VectorXd heat = balance.stored(model.initial, model.initial + way).cwiseQuotient(capacity);
+  BentStorage storage(model);
+  storage.fit(balance, model.initial, way);
+  const Eigen::VectorXd stray = storage.stray(balance, model.initial, heat, way, 1e-3);
+  ASSERT_EQ(stray.size(), way.size());
+  const Eigen::Index row = way.size() - 1;
+  const auto beside = [&](double part) {
+    const Eigen::VectorXd stored = part * heat.cwiseProduct(capacity);
+    const double warmer = balance.temperature_after(model.initial, stored, model.initial)[row] - model.initial[row];
+    return warmer - BentStorage::rise(storage.slope()[row], part * heat[row]);
+  };
+  double mean = -beside(1) / 3;
+  for (int i = 0; i < 1000; ++i) mean += beside((i + 0.5) / 1000) / 1000;
+  EXPECT_GT(std::abs(mean), 0.01);
+  EXPECT_NEAR(stray[row], mean, 0.05 * std::abs(mean));
+  for (const NodeId node : model.fixed_nodes) EXPECT_EQ(stray[node.value()], 0);
+  EXPECT_EQ(storage.stray(balance, model.initial, heat, way, 10).size(), 0);
+}
+
 TEST(BentStorage, LeavesFixedNodesAsWarmAsTheyAreHeld) {
   const HeatModel model = bar_of(test::curve("500 + T"));
   BentStorage storage(model);
