@@ -31,11 +31,11 @@ class BentStorage {
   // Whether any c depends on temperature; else T - T0 is D, and nothing else may be called.
   [[nodiscard]] explicit operator bool() const { return bends_; }
 
-  // At the temperatures T0; `way`: what they are expected to change by [K], or of no size. Fixed nodes are as warm as they are
+  // At the temperatures T0; `expected`: those at the step's end, about [K], or of no size. Fixed nodes are as warm as they are
   // held.
-  void fit(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& way) {
+  void fit(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& expected) {
     slope_ = capacity_slope_at(model_, temperature);
-    if (way.size() > 0) go_through(balance, temperature, way);
+    if (expected.size() > 0) go_through(balance, temperature, expected);
     for (const NodeId node : model_.fixed_nodes) slope_[node.value()] = 0;
   }
 
@@ -73,12 +73,13 @@ class BentStorage {
  private:
   static constexpr double least_way = 1e-3;  // below it q is that at T0: none can be told from rounding [K]
 
-  void go_through(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& way) {
-    const Eigen::VectorXd stored = balance.stored(temperature, temperature + way), capacity = capacity_at(model_, temperature);
+  void go_through(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& expected) {
+    const Eigen::VectorXd stored = balance.stored(temperature, expected), capacity = capacity_at(model_, temperature);
     for_each_shortly(slope_.size(), [&](Eigen::Index row) {
-      if (std::abs(way[row]) < least_way) return;
+      const double way = expected[row] - temperature[row];
+      if (std::abs(way) < least_way) return;
       const double heat = stored[row] / capacity[row];  // [K]
-      slope_[row] = 2 * (heat - way[row]) / (heat * heat);
+      slope_[row] = 2 * (heat - way) / (heat * heat);
     });
   }
 

@@ -300,7 +300,7 @@ class HeatRun::Implementation {
   [[nodiscard]] double may_become(const Eigen::VectorXd& error) const { return growth_.largest(error, growth_now_); }
 
   [[nodiscard]] Instant instant(double time) const {
-    return {time, state_.temperature, state_.error, state_.rate, negligible_share * options_.tolerance};
+    return {time, state_.temperature, state_.error, state_.rate, state_.reached, negligible_share * options_.tolerance};
   }
 
   void include_drive(double time) { state_.given.include(drives_.at(time)); }

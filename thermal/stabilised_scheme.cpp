@@ -127,7 +127,11 @@ class StabilisedScheme : public TimeScheme {
   void follow(const Instant& from, double length) {
     linearise(from);
     stable_ = changing_->at(linear_);
-    if (storage_) storage_.fit(balance_, from.temperature, length * from.rate);
+    if (!storage_) return;
+    // No further than temperatures have been: beyond, a formula over temperature need not have a value.
+    Eigen::VectorXd expected;
+    if (from.rate.size() > 0) expected = from.reached.nearest(from.temperature + length * from.rate);
+    storage_.fit(balance_, from.temperature, expected);
   }
 
   // Calls visit(first row, number of rows) on all threads for all rows.

@@ -21,6 +21,10 @@ void TemperatureRange::include(const TemperatureRange& other) {
   largest = std::max(largest, other.largest);
 }
 
+Eigen::VectorXd TemperatureRange::nearest(const Eigen::VectorXd& temperatures) const {
+  return temperatures.cwiseMax(least).cwiseMin(largest);
+}
+
 std::optional<double> overshoot(const HeatModel& model, const HeatState& state) {
   if (!model.loads.empty()) return std::nullopt;
   const double above = state.reached.largest - state.given.largest;

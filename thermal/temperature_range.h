@@ -14,6 +14,8 @@ struct TemperatureRange {
   void include(const Eigen::VectorXd& temperatures);
   void include(const Drive& drive);  // temperatures held, and of surroundings
   void include(const TemperatureRange& other);
+  // The nearest to these that are in it.
+  [[nodiscard]] Eigen::VectorXd nearest(const Eigen::VectorXd& temperatures) const;
 };
 
 }  // namespace scree::thermal

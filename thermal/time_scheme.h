@@ -13,6 +13,7 @@
 #include "thermal/matrix_origin.h"
 #include "thermal/solver_cost.h"
 #include "thermal/stable_step.h"
+#include "thermal/temperature_range.h"
 
 namespace scree::thermal {
 
@@ -22,6 +23,7 @@ struct Instant {
   Eigen::VectorXd temperature;  // fixed nodes at their temperature of this time [K]
   Eigen::VectorXd error;        // estimate of the global error [K]
   Eigen::VectorXd rate{};       // of the temperatures in the step before; of no size if it is not known [K/s]
+  TemperatureRange reached{};   // so far, if that is known
   double negligible = 0;        // what an estimate need not see of how a curve bends within the step [K]
 };
 

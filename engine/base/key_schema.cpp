@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 // As is_plain_name().
 constexpr const char* name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
 // A number, a unit behind it; whether the unit fits is for `scree check` to say.
-constexpr const char* quantity_pattern = R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[^0-9\s.+-].*$)";
+constexpr const char* quantity_pattern = R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*(1/|[^0-9\s.+-]).*$)";
 
 void add_range(const Range& range, Json& schema) {
   if (std::isfinite(range.low)) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;

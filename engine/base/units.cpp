@@ -93,11 +93,11 @@ bool is_digit(char c) {
 }
 
 // UDUNITS also reads products with numbers ("m 3" is 3 m), origins ("K @ 3") and dates: surely mistakes here. Digits may
-// only be exponents: behind a letter, a sign, a hat, or another digit.
+// only be exponents: behind a letter, a sign, a hat, or another digit; but for the 1 of 1/s.
 bool plain_spelling(std::string_view unit) {
   // A zero byte would end the unit for UDUNITS and hide the rest.
   if (unit.find('@') != std::string_view::npos || unit.find('\0') != std::string_view::npos) return false;
-  for (std::size_t i = 0; i < unit.size(); ++i) {
+  for (std::size_t i = unit.starts_with("1/") ? 1 : 0; i < unit.size(); ++i) {
     if (!is_digit(unit[i])) continue;
     if (i == 0) return false;
     const char before = unit[i - 1];
@@ -124,6 +124,7 @@ Unit parse_unit(std::string_view spelling, ut_system* table) {
 }
 
 Unit parse_unit(std::string_view spelling) {
+  if (spelling.starts_with('/')) return parse_unit(fmt::format("1{}", spelling));  // 10 /s
   if (!plain_spelling(spelling)) return nullptr;
   return parse_unit(spelling, in_short_table(spelling) ? short_table() : long_table());
 }

@@ -6,6 +6,7 @@
 
 #include "tests/thermal/builders.h"
 #include "tests/verification/formula.h"
+#include "thermal/heat_run.h"
 
 namespace scree::thermal {
 namespace {
@@ -51,7 +52,7 @@ TEST(BentStorage, GoesThroughTheEnthalpyBehindAKinkWhereTheNodeIsExpected) {
   BentStorage storage(model);
   storage.fit(balance, model.initial, {});
   EXPECT_GT(BentStorage::rise(storage.slope()[row], heat) - 5, 0.01) << "by the curve at the start";
-  storage.fit(balance, model.initial, way);
+  storage.fit(balance, model.initial, model.initial + way);
   EXPECT_NEAR(BentStorage::rise(storage.slope()[row], heat), 5, 1e-12);
 }
 
@@ -63,7 +64,7 @@ TEST(BentStorage, TellsHowFarTemperaturesStrayFromTheParabolaOnTheirWay) {
   const Eigen::VectorXd capacity = capacity_at(model, model.initial);
   const Eigen::VectorXd heat = balance.stored(model.initial, model.initial + way).cwiseQuotient(capacity);
   BentStorage storage(model);
-  storage.fit(balance, model.initial, way);
+  storage.fit(balance, model.initial, model.initial + way);
   const Eigen::VectorXd stray = storage.stray(balance, model.initial, heat, way, 1e-3);
   ASSERT_EQ(stray.size(), way.size());
   const Eigen::Index row = way.size() - 1;
@@ -78,6 +79,29 @@ TEST(BentStorage, TellsHowFarTemperaturesStrayFromTheParabolaOnTheirWay) {
   EXPECT_NEAR(stray[row], mean, 0.05 * std::abs(mean));
   for (const NodeId node : model.fixed_nodes) EXPECT_EQ(stray[node.value()], 0);
   EXPECT_EQ(storage.stray(balance, model.initial, heat, way, 10).size(), 0);
+}
+
+// Steps grow as it comes to rest, and what it did in the step before would lead beyond the air's 449 K, and 450.
+TEST(BentStorage, AsksNoFormulaBeyondWhereTemperaturesHaveBeen) {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.05, 2, 1, 0.025)});
+  Material metal = test::rock();
+  metal.density = 2000;
+  metal.conductivity = 45.0;
+  metal.specific_heat = test::curve("50*sqrt(450 - T)");
+  HeatOptions options = test::options_for(mesh, 400);
+  Boundary end = test::hold(BodyId{0}, 0, 0, "end");
+  end.condition = Convection{240, 449};
+  options.boundaries.push_back(end);
+  const HeatModel model = make_heat_model(mesh, Table<MaterialId, Material>({metal}), {}, options);
+  TimeOptions time;
+  time.until = 40000;
+  time.output_every = 10000;
+  time.tolerance = 5;
+  time.integrator = Integrator::stabilised_explicit;
+  HeatRun run(model, time);
+  run.advance_to(time.until);
+  EXPECT_TRUE(run.within_tolerance());
+  EXPECT_NEAR(run.state().temperature.mean(), 449, 5);
 }
 
 TEST(BentStorage, LeavesFixedNodesAsWarmAsTheyAreHeld) {
