@@ -31,11 +31,12 @@ class BentStorage {
   // Whether any c depends on temperature; else T - T0 is D, and nothing else may be called.
   [[nodiscard]] explicit operator bool() const { return bends_; }
 
-  // At the temperatures T0; `expected`: those at the step's end, about [K], or of no size. Fixed nodes are as warm as they are
-  // held.
-  void fit(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& expected) {
+  // At the temperatures T0, with these capacities [J/K]; `expected`: temperatures at the step's end, about [K], or of no size.
+  // Fixed nodes are as warm as they are held.
+  void fit(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity,
+           const Eigen::VectorXd& expected) {
     slope_ = capacity_slope_at(model_, temperature);
-    if (expected.size() > 0) go_through(balance, temperature, expected);
+    if (expected.size() > 0) go_through(balance, temperature, capacity, expected);
     for (const NodeId node : model_.fixed_nodes) slope_[node.value()] = 0;
   }
 
@@ -46,12 +47,13 @@ class BentStorage {
   }
 
   // How much warmer nodes are than T0 + x(D) on their way through a step, in the mean, beside a third of what they are at its
-  // end [K]. `heat`: D at the end; `change`: of the temperatures. Of no size if no c bends by more than makes `negligible` [K].
+  // end [K]. `heat`, `stored`: D and C(T0) D there [K, J]; `change`: of the temperatures. Of no size if no c bends by more than
+  // makes `negligible` [K].
   [[nodiscard]] Eigen::VectorXd stray(const HeatBalance& balance, const Eigen::VectorXd& temperature,
-                                      const Eigen::VectorXd& heat, const Eigen::VectorXd& change, double negligible) const {
+                                      const Eigen::VectorXd& heat, const Eigen::VectorXd& stored, const Eigen::VectorXd& change,
+                                      double negligible) const {
     if (!capacity_bends_on_the_way(model_, temperature, temperature + change, negligible)) return {};
     constexpr int looks = 8;
-    const Eigen::VectorXd stored = capacity_at(model_, temperature).cwiseProduct(heat);  // [J]
     const auto beside = [&](double part, const Eigen::VectorXd& warmer) -> Eigen::VectorXd {
       Eigen::VectorXd at = warmer;
       for_each_shortly(at.size(), [&](Eigen::Index row) { at[row] -= rise(slope_[row], part * heat[row]); });
@@ -73,8 +75,9 @@ class BentStorage {
  private:
   static constexpr double least_way = 1e-3;  // below it q is that at T0: none can be told from rounding [K]
 
-  void go_through(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& expected) {
-    const Eigen::VectorXd stored = balance.stored(temperature, expected), capacity = capacity_at(model_, temperature);
+  void go_through(const HeatBalance& balance, const Eigen::VectorXd& temperature, const Eigen::VectorXd& capacity,
+                  const Eigen::VectorXd& expected) {
+    const Eigen::VectorXd stored = balance.stored(temperature, expected);
     for_each_shortly(slope_.size(), [&](Eigen::Index row) {
       const double way = expected[row] - temperature[row];
       if (std::abs(way) < least_way) return;

@@ -27,7 +27,8 @@ namespace {
 // Steps grow when the error expected after doubling, 2^3 times this one for second order, keeps to this share of what is
 // allowed.
 constexpr double growth_margin = 0.8;
-// What a step misses at some places of a formula of place is nothing below this share of what the step may add.
+// What a step misses at some places of a formula of place is nothing below this share of what the step may add, and what a
+// curve's bends make below this share of the tolerance.
 constexpr double negligible_share = 0.01;
 // How many times the error of a step, of third order, is that of half of it.
 constexpr double twice_too_long = 8;
@@ -190,8 +191,8 @@ class HeatRun::Implementation {
       Eigen::VectorXd growth;
       if (growth_.counts()) growth = growth_.at(state_.temperature + step.change);
       const double local = growth_.largest(step.local, growth), error = growth_.largest(step.error, growth);
-      const double added = ErrorGrowth::largest_rise(step.error, step.local, growth),
-                   most = std::max(may_add, budget_.of_any());
+      const double added = ErrorGrowth::largest_rise(step.error, step.local, growth);
+      const double most = std::max(may_add, budget_.of_any());
       if (!(added <= may_add && local <= most)) {
         refine(grid, std::max(added / may_add, local / most));
         continue;

@@ -131,7 +131,7 @@ class StabilisedScheme : public TimeScheme {
     // No further than temperatures have been: beyond, a formula over temperature need not have a value.
     Eigen::VectorXd expected;
     if (from.rate.size() > 0) expected = from.reached.nearest(from.temperature + length * from.rate);
-    storage_.fit(balance_, from.temperature, expected);
+    storage_.fit(balance_, from.temperature, linear_.capacity, expected);
   }
 
   // Calls visit(first row, number of rows) on all threads for all rows.
@@ -199,7 +199,7 @@ class StabilisedScheme : public TimeScheme {
     const Eigen::VectorXd capacity = capacity_at(model_, end);
     const auto beside = beside_held(from, length);
     const Eigen::VectorXd stray =
-        storage_ ? storage_.stray(balance_, from.temperature, newer_.col(0), result.change, from.negligible)
+        storage_ ? storage_.stray(balance_, from.temperature, newer_.col(0), heat, result.change, from.negligible)
                  : Eigen::VectorXd();
     const Eigen::VectorXd lost = stray.size() > 0 ? balance_.lost(stray, linear_) : stray;
     const double most = stray.size() > 0 ? 2 * stray.lpNorm<Eigen::Infinity>() : 0;

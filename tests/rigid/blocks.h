@@ -41,6 +41,13 @@ inline BlockId add_box(mesh::BlockMesh<3>& mesh, const Vector3d& size, const Vec
   return add_box(mesh, size, Pose{centre, Eigen::Quaterniond::Identity()}, fixed, velocity);
 }
 
+// A fixed square plate below z = 0.
+inline mesh::BlockMesh<3> plate(double width = 2) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {width, width, 0.1}, {0, 0, -0.05}, true);
+  return mesh;
+}
+
 inline BlockId add_tetrahedron(mesh::BlockMesh<3>& mesh, const std::array<Vector3d, 4>& corners, bool fixed = false) {
   const BodyId body = mesh.bodies.push_back({"tetrahedron", MaterialId{0}, fixed, Vector3d::Zero()});
   const std::size_t node = mesh.nodes.size();

@@ -18,14 +18,9 @@ using testing::add_box;
 using testing::for_time;
 using testing::g;
 using testing::material;
+using testing::plate;
 
 constexpr double width = 0.1;  // of foot and limb [m]
-
-mesh::BlockMesh<3> plate() {
-  mesh::BlockMesh<3> mesh;
-  add_box(mesh, {2, 2, 0.1}, {0, 0, -0.05}, true);
-  return mesh;
-}
 
 // The lower side of the foot, a square, begins at `corner`; the limb above it is `limb` long.
 BlockId add_l(mesh::BlockMesh<3>& mesh, double limb, const Vector3d& corner) {

@@ -11,12 +11,7 @@ namespace {
 
 using testing::add_box;
 using testing::g;
-
-mesh::BlockMesh<3> plate() {
-  mesh::BlockMesh<3> mesh;
-  add_box(mesh, {8, 8, 0.1}, {0, 0, -0.05}, true);
-  return mesh;
-}
+using testing::plate;
 
 SettleOptions with_drag(double drag, double limit) {
   SettleOptions options;
@@ -34,7 +29,7 @@ double height_after(double time, double drag, double speed) {
 // It turns at 0.62 s, where nothing moves.
 TEST(Drag, OfABlockThrownUpIsThereOnItsWayDown) {
   for (const double time : {0.6, 1.3}) {
-    mesh::BlockMesh<3> mesh = plate();
+    mesh::BlockMesh<3> mesh = plate(8);
     const BlockId block = add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.1}, false, {0, 0, 12});
     add_box(mesh, {0.1, 0.1, 0.1}, {1, 0, 0.05}, false);  // it is not one fall of all
     const double height = settle(mesh, testing::material(0.5), with_drag(2, time)).poses[block].translation.z();
@@ -44,7 +39,7 @@ TEST(Drag, OfABlockThrownUpIsThereOnItsWayDown) {
 
 // In the mean over masses nothing moves.
 TEST(Drag, OfAPebbleThatFallsBesideABoulderIsThereUntilItLands) {
-  mesh::BlockMesh<3> mesh = plate();
+  mesh::BlockMesh<3> mesh = plate(8);
   add_box(mesh, {1, 1, 1}, {0, 0, 0.5}, false);
   const BlockId pebble = add_box(mesh, {0.02, 0.02, 0.02}, {2, 0, 3}, false);
   const packing::Packing<3> packing = settle(mesh, testing::material(0.5), with_drag(10, 2));
@@ -55,7 +50,7 @@ TEST(Drag, OfAPebbleThatFallsBesideABoulderIsThereUntilItLands) {
 
 // Bounces to 1.40 and 0.62 m: drag takes half of what a restitution of 0.9 leaves.
 TEST(Drag, OfABlockThatBouncesIsThereAtTheTopOfItsWay) {
-  mesh::BlockMesh<3> mesh = plate();
+  mesh::BlockMesh<3> mesh = plate(8);
   const BlockId block = add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 5.05}, false);
   add_box(mesh, {0.1, 0.1, 0.1}, {1, 0, 0.05}, false);
   Table<MaterialId, Material> bouncing = testing::material(0.5);
@@ -76,7 +71,7 @@ TEST(Drag, OfABlockThatBouncesIsThereAtTheTopOfItsWay) {
 
 // Let go last, when the others lie still.
 TEST(Drag, OfABlockThatIsLetGoLastIsThereUntilItLands) {
-  mesh::BlockMesh<3> mesh = plate();
+  mesh::BlockMesh<3> mesh = plate(8);
   for (int i = 0; i < 20; ++i) add_box(mesh, {0.1, 0.1, 0.1}, {0.2 * i - 2, 0, 0.05}, false);
   const BlockId last = add_box(mesh, {0.1, 0.1, 0.1}, {0, 2, 3}, false);
   SettleOptions options = with_drag(10, 3);

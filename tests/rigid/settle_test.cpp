@@ -21,12 +21,7 @@ using testing::add_tetrahedron;
 using testing::for_time;
 using testing::g;
 using testing::material;
-
-mesh::BlockMesh<3> plate() {
-  mesh::BlockMesh<3> mesh;
-  add_box(mesh, {2, 2, 0.1}, {0, 0, -0.05}, true);
-  return mesh;
-}
+using testing::plate;
 
 Pose slope(double angle, double height) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Vector3d::UnitY()));

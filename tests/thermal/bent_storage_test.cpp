@@ -28,7 +28,7 @@ TEST(BentStorage, IsThereOnlyWhereASpecificHeatDependsOnTemperature) {
 TEST(BentStorage, FollowsTheEnthalpyToSecondOrder) {
   const HeatModel model = bar_of(test::curve("500 + T + 1e-3*(T - 300)^2"));
   BentStorage storage(model);
-  storage.fit(HeatBalance(model), model.initial, {});
+  storage.fit(HeatBalance(model), model.initial, capacity_at(model, model.initial), {});
   const Eigen::VectorXd capacity = capacity_at(model, model.initial);
   const Eigen::Index row = model.initial.size() - 1;
   const auto off = [&](double heat) {
@@ -50,9 +50,9 @@ TEST(BentStorage, GoesThroughTheEnthalpyBehindAKinkWhereTheNodeIsExpected) {
   const Eigen::Index row = model.initial.size() - 1;
   const double heat = balance.stored(model.initial, model.initial + way)[row] / capacity[row];
   BentStorage storage(model);
-  storage.fit(balance, model.initial, {});
+  storage.fit(balance, model.initial, capacity, {});
   EXPECT_GT(BentStorage::rise(storage.slope()[row], heat) - 5, 0.01) << "by the curve at the start";
-  storage.fit(balance, model.initial, model.initial + way);
+  storage.fit(balance, model.initial, capacity, model.initial + way);
   EXPECT_NEAR(BentStorage::rise(storage.slope()[row], heat), 5, 1e-12);
 }
 
@@ -62,14 +62,15 @@ TEST(BentStorage, TellsHowFarTemperaturesStrayFromTheParabolaOnTheirWay) {
   const HeatBalance balance(model);
   const Eigen::VectorXd way = Eigen::VectorXd::Constant(model.initial.size(), 5);
   const Eigen::VectorXd capacity = capacity_at(model, model.initial);
-  const Eigen::VectorXd heat = balance.stored(model.initial, model.initial + way).cwiseQuotient(capacity);
+  const Eigen::VectorXd taken_up = balance.stored(model.initial, model.initial + way);
+  const Eigen::VectorXd heat = taken_up.cwiseQuotient(capacity);
   BentStorage storage(model);
-  storage.fit(balance, model.initial, model.initial + way);
-  const Eigen::VectorXd stray = storage.stray(balance, model.initial, heat, way, 1e-3);
+  storage.fit(balance, model.initial, capacity, model.initial + way);
+  const Eigen::VectorXd stray = storage.stray(balance, model.initial, heat, taken_up, way, 1e-3);
   ASSERT_EQ(stray.size(), way.size());
   const Eigen::Index row = way.size() - 1;
   const auto beside = [&](double part) {
-    const Eigen::VectorXd stored = part * heat.cwiseProduct(capacity);
+    const Eigen::VectorXd stored = part * taken_up;
     const double warmer = balance.temperature_after(model.initial, stored, model.initial)[row] - model.initial[row];
     return warmer - BentStorage::rise(storage.slope()[row], part * heat[row]);
   };
@@ -78,7 +79,7 @@ TEST(BentStorage, TellsHowFarTemperaturesStrayFromTheParabolaOnTheirWay) {
   EXPECT_GT(std::abs(mean), 0.01);
   EXPECT_NEAR(stray[row], mean, 0.05 * std::abs(mean));
   for (const NodeId node : model.fixed_nodes) EXPECT_EQ(stray[node.value()], 0);
-  EXPECT_EQ(storage.stray(balance, model.initial, heat, way, 10).size(), 0);
+  EXPECT_EQ(storage.stray(balance, model.initial, heat, taken_up, way, 10).size(), 0);
 }
 
 // Steps grow as it comes to rest, and what it did in the step before would lead beyond the air's 449 K, and 450.
@@ -107,7 +108,7 @@ TEST(BentStorage, AsksNoFormulaBeyondWhereTemperaturesHaveBeen) {
 TEST(BentStorage, LeavesFixedNodesAsWarmAsTheyAreHeld) {
   const HeatModel model = bar_of(test::curve("500 + T"));
   BentStorage storage(model);
-  storage.fit(HeatBalance(model), model.initial, {});
+  storage.fit(HeatBalance(model), model.initial, capacity_at(model, model.initial), {});
   ASSERT_FALSE(model.fixed_nodes.empty());
   for (const NodeId node : model.fixed_nodes) EXPECT_EQ(BentStorage::rise(storage.slope()[node.value()], 7), 7);
 }
