@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -66,6 +67,7 @@ LumpingEstimate::LumpingEstimate(const HeatModel& model)
       balance_(model),
       free_(model) {
   make_matrix();
+  for (const LumpedBlock& block : blocks_) start_spread_ = std::max(start_spread_, block.start_spread);
   for (std::size_t i = 0; i < blocks_.size(); ++i) add_links(static_cast<int>(i));
   std::size_t first = model.lumped->of_blocks();
   for (std::size_t e = 0; e < model.exchanges.size(); ++e) add_places(model.exchanges[e].on, e, first, places_, patches_);
@@ -113,8 +115,14 @@ void LumpingEstimate::add_places(const NodeShares& on, std::size_t number, std::
 LumpingError LumpingEstimate::start() const {
   LumpingError error;
   error.carried = Eigen::VectorXd::Zero(model_.capacity.size());
-  for (const LumpedBlock& block : blocks_) error.largest = std::max(error.largest, block.start_spread);
+  error.largest = start_spread_;
   return error;
+}
+
+// Where nothing sets heat free, no temperature leaves the range of those that have been, within and outside, neither of blocks
+// that are lumped nor of those that are not.
+double LumpingEstimate::most() const {
+  return model_.loads.empty() ? range_.largest - range_.least + start_spread_ : std::numeric_limits<double>::infinity();
 }
 
 // A material may conduct worse where nothing was at the start.
@@ -136,7 +144,7 @@ void LumpingEstimate::advance(const Eigen::VectorXd& temperature, const Drive& d
   double inside = 0;
   for (const Inside& one : within) inside = std::max(inside, one.largest());
   carry(missing(through, within), balance_.linearised(temperature, drive), length, error.carried);
-  error.largest = std::max(error.largest, inside + error.carried.lpNorm<Eigen::Infinity>());
+  error.largest = std::max(error.largest, std::min(inside + error.carried.lpNorm<Eigen::Infinity>(), most()));
 }
 
 std::vector<LumpingEstimate::Flow> LumpingEstimate::flows(const Eigen::VectorXd& temperature, const Drive& drive) const {

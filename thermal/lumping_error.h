@@ -10,7 +10,8 @@
 // and that heat is missing elsewhere: to first order in the Biot number the temperatures are off by e,
 //   C de/dt = -J e + d,   d = the sum of what the patches carry less,   J = -dF/dT,
 // which backward Euler steps follow beside the run's own. The estimate is the largest theta plus the largest |e|. In the first
-// instants after a sudden start the inside has not built up theta yet, and the estimate is too large.
+// instants after a sudden start the inside has not built up theta yet, and the estimate is too large. Without loads it is at
+// most what temperatures may differ by at all.
 #pragma once
 
 #include <vector>
@@ -59,6 +60,7 @@ class LumpingEstimate {
   struct Flow;
   struct Inside;
   void include(const TemperatureRange& range);
+  [[nodiscard]] double most() const;  // that temperatures can be off by [K]
   void add_links(int block);
   // Where the exchange or load `number` reaches lumped blocks. Patches of its kind are numbered from `first` on.
   void add_places(const NodeShares& on, std::size_t number, std::size_t first, std::vector<Place>& places,
@@ -78,6 +80,7 @@ class LumpingEstimate {
   const HeatModel& model_;
   const std::vector<LumpedBlock>& blocks_;
   TemperatureRange range_;
+  double start_spread_ = 0;           // the largest of the blocks' [K]
   Table<MaterialId, double> harder_;  // how many times what blocks resist at the start they may resist in that range [-]
   HeatBalance balance_;
   FreeNodes free_;

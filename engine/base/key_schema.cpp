@@ -67,8 +67,7 @@ Json leaf_schema(const Key& key) {
       }
       if (key.words == std::vector<std::string>{"true"}) return Json{{"enum", Json::array({true})}};
       return Json{{"enum", key.words}};
-    case KeyType::name:
-      return Json{{"type", "string"}, {"pattern", name_pattern}};
+    case KeyType::name:  // of a body, but also of a surface in a mesh's file, which may hold anything
     case KeyType::text:
       return Json{{"type", Json::array({"string", "number"})}};  // a title or a formula that is one number
     default:

@@ -37,28 +37,76 @@ bool held_by_walls(const Columns& columns) {
   return false;
 }
 
-// Mean heights over rings one block's size wide around the pile's middle.
-std::vector<double> mean_profile(const Columns& columns) {
+Eigen::Vector2d middle_of(const Columns& columns) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double weight = 0;
   for (const Column& column : columns.lines) {
     middle += height(column) * column.place;
     weight += height(column);
   }
-  if (weight > 0) middle /= weight;
-  std::vector<double> sums, counts;
-  for (const Column& column : columns.lines) {
-    const auto ring = static_cast<std::size_t>((column.place - middle).norm() / columns.size);
-    if (ring >= sums.size()) {
-      sums.resize(ring + 1);
-      counts.resize(ring + 1);
-    }
-    sums[ring] += height(column);
-    ++counts[ring];
-  }
-  for (std::size_t ring = 0; ring < sums.size(); ++ring) sums[ring] /= std::max(1.0, counts[ring]);
-  return sums;
+  return weight > 0 ? Eigen::Vector2d(middle / weight) : middle;
 }
+
+// Heights of the lines in a ring around the pile's middle.
+struct Ring {
+  double radius = 0;  // [m]
+  double lines = 0;
+  double sum = 0;      // [m]
+  double squares = 0;  // [m2]
+
+  [[nodiscard]] double mean() const { return lines > 0 ? sum / lines : 0; }
+};
+
+// One block's size wide.
+std::vector<Ring> rings_of(const Columns& columns) {
+  const Eigen::Vector2d middle = middle_of(columns);
+  std::vector<Ring> rings;
+  for (const Column& column : columns.lines) {
+    const auto number = static_cast<std::size_t>((column.place - middle).norm() / columns.size);
+    while (rings.size() <= number) rings.push_back({.radius = (static_cast<double>(rings.size()) + 0.5) * columns.size});
+    Ring& ring = rings[number];
+    ++ring.lines;
+    ring.sum += height(column);
+    ring.squares += height(column) * height(column);
+  }
+  return rings;
+}
+
+struct Line {
+  double at_middle = 0;  // [m]
+  double slope = 0;      // [-]
+};
+
+// Through the mean heights of the rings, each of which counts the same.
+Line line_through(const std::vector<Ring>& rings) {
+  double r = 0, z = 0, rr = 0, rz = 0;
+  for (const Ring& ring : rings) {
+    r += ring.radius;
+    z += ring.mean();
+    rr += ring.radius * ring.radius;
+    rz += ring.radius * ring.mean();
+  }
+  const auto n = static_cast<double>(rings.size());
+  const double slope = (n * rz - r * z) / (n * rr - r * r);
+  return {(z - slope * r) / n, slope};
+}
+
+// The part of the variance of all heights in the rings that goes with the line [-].
+double fit_of(const Line& line, const std::vector<Ring>& rings) {
+  double lines = 0, sum = 0, squares = 0, left = 0;
+  for (const Ring& ring : rings) {
+    const double expected = line.at_middle + line.slope * ring.radius;
+    lines += ring.lines;
+    sum += ring.sum;
+    squares += ring.squares;
+    left += ring.squares - 2 * expected * ring.sum + expected * expected * ring.lines;
+  }
+  return 1 - left / (squares - sum * sum / lines);
+}
+
+// Below it what the rings mean is no flank: two heaps have 0.0 to 0.4, a layer 0.1, a ridge three times as long as wide 0.4, a
+// cone of six blocks' height, whose surface is as rough as its blocks are large, 0.6 and more.
+constexpr double least_fit = 0.5;
 
 }  // namespace
 
@@ -99,25 +147,19 @@ std::optional<InnerPorosity> inner_porosity(const Columns& columns) {
 
 std::optional<Repose> angle_of_repose(const Columns& columns) {
   if (columns.lines.empty() || held_by_walls(columns)) return std::nullopt;
-  const std::vector<double> profile = mean_profile(columns);
-  const double highest = *std::max_element(profile.begin(), profile.end());
+  std::vector<Ring> rings = rings_of(columns);
+  const auto lower = [](const Ring& a, const Ring& b) { return a.mean() < b.mean(); };
+  const double highest = std::max_element(rings.begin(), rings.end(), lower)->mean();
   Repose result;
   result.low = highest / 5;
   result.high = highest * 4 / 5;
-  double r = 0, z = 0, rr = 0, rz = 0, n = 0;
-  for (std::size_t ring = 0; ring < profile.size(); ++ring) {
-    if (profile[ring] < result.low || profile[ring] > result.high) continue;
-    const double radius = (static_cast<double>(ring) + 0.5) * columns.size;
-    n += 1;
-    r += radius;
-    z += profile[ring];
-    rr += radius * radius;
-    rz += radius * profile[ring];
-  }
-  if (n < 3) return std::nullopt;
-  result.rings = static_cast<std::size_t>(n);
-  result.angle = std::atan(-(n * rz - r * z) / (n * rr - r * r));
-  if (!(result.angle > 0)) return std::nullopt;
+  std::erase_if(rings, [&](const Ring& ring) { return ring.mean() < result.low || ring.mean() > result.high; });
+  if (rings.size() < 3) return std::nullopt;
+  const Line flank = line_through(rings);
+  result.rings = rings.size();
+  result.angle = std::atan(-flank.slope);
+  result.fit = fit_of(flank, rings);
+  if (!(result.angle > 0 && result.fit >= least_fit)) return std::nullopt;
   return result;
 }
 

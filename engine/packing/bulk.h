@@ -28,11 +28,12 @@ struct Repose {
   double low = 0;    // heights of the mean profile between which the flank is fitted [m]
   double high = 0;
   std::size_t rings = 0;
+  double fit = 0;  // part of the variance of the heights there that goes with the flank: 1 for an even round heap [-]
 };
 
 // The mean height over rings around the pile's middle, one block's size wide, and a straight line through those between a
-// fifth and four fifths of the highest. Nothing for a pile that walls hold, with fewer than three rings there or
-// without a fall from its middle outwards.
+// fifth and four fifths of the highest. Nothing for a pile that walls hold, with fewer than three rings there,
+// without a fall from its middle outwards, or that is no single round heap: the fit is below a half.
 std::optional<Repose> angle_of_repose(const Columns& columns);
 
 }  // namespace scree::packing

@@ -71,7 +71,16 @@ void OwnCollision::processCollision(const btCollisionObjectWrapper*, const btCol
 }
 
 PolyhedronCollision::Pair PolyhedronCollision::pair_of(const Side& first, const Side& second, double time_step) const {
-  return {first, second, reach_of(ranges_, first, second, time_step), time_step};
+  // Of the radius of the smaller one, which may be a pebble beside a few boulders, whose mean size the ranges go by.
+  constexpr double most_bias = 0.05;
+  constexpr double most_still = 0.0125;
+  const double size = std::min(first.radius, second.radius);
+  return {first,
+          second,
+          reach_of(ranges_, first, second, time_step),
+          time_step,
+          std::min(ranges_.face_bias, most_bias * size),
+          std::min(ranges_.still, most_still * size)};
 }
 
 void PolyhedronCollision::claim(const BlockMotion& first, const BlockMotion& second, const ContactPoints& points) {
@@ -87,8 +96,7 @@ bool PolyhedronCollision::still_holds(const Pair& pair) {
   if (evaluated_reach_ >= 0) {
     moved_ = way_moved(relative_, relative, pair.second.radius);
     if (separation_.distance - moved_ > pair.reach) return true;
-    if (moved_ < ranges_.still && !may_bounce(pair) && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near))
-      return true;
+    if (moved_ < pair.still && !may_bounce(pair) && pair.reach <= std::max(evaluated_reach_, 1.5 * ranges_.near)) return true;
   }
   relative_ = relative;
   moved_ = 0;
@@ -114,9 +122,9 @@ bool PolyhedronCollision::on_surfaces(const Pair& pair, const packing::Separatio
   const SurfaceSide first(pair.first, at.normal), second(pair.second, -at.normal);
   switch (at.feature) {
     case Feature::face_of_first:
-      return first.parts_at_face(at.of_first) && second.stands_out(ranges_.still);
+      return first.parts_at_face(at.of_first) && second.stands_out(pair.still);
     case Feature::face_of_second:
-      return second.parts_at_face(at.of_second) && first.stands_out(ranges_.still);
+      return second.parts_at_face(at.of_second) && first.stands_out(pair.still);
     case Feature::edges:
       return first.parts_at_edge(at.of_first) && second.parts_at_edge(at.of_second);
   }
@@ -128,15 +136,14 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
   const PlacedPiece &a = placed(pair.first, of_first), &b = placed(pair.second, of_second);
   const double enough = pair.reach + ranges_.near;
   if (evaluated_reach_ >= 0) separation_.distance = packing::separation_along(a, b, separation_);
-  if (evaluated_reach_ < 0 || separation_.distance <= enough)
-    separation_ = packing::separation(a, b, enough, ranges_.face_bias);
+  if (evaluated_reach_ < 0 || separation_.distance <= enough) separation_ = packing::separation(a, b, enough, pair.face_bias);
   evaluated_reach_ = pair.reach;
   if (separation_.distance > pair.reach) return {};
   if (only_surfaces_ && !on_surfaces(pair, separation_)) {
     // A block that slides over another's pieces comes upon the faces between them from the side, which are not there. What is
     // deep inside is pushed out by any face, lest it falls through.
     const auto real =
-        packing::separation_by(a, b, ranges_.face_bias, [&](const packing::Separation& at) { return on_surfaces(pair, at); });
+        packing::separation_by(a, b, pair.face_bias, [&](const packing::Separation& at) { return on_surfaces(pair, at); });
     if (separation_.distance > 0 && real.distance <= 0) return {};
     const bool none = real.distance <= -ranges_.near;
     if (none && separation_.distance > -ranges_.near) return {};
@@ -167,7 +174,7 @@ bool PolyhedronCollision::passes_by(const Pair& pair, const ContactPoints& point
   for (double look = looks; look >= 1; --look) {  // most that touch do so at the end
     const double time = look / looks * pair.time_step;
     const PlacedPiece &a = placed_after(pair.first, time, of_first), &b = placed_after(pair.second, time, of_second);
-    if (packing::separation(a, b, touching, ranges_.face_bias).distance <= touching) return false;
+    if (packing::separation(a, b, touching, pair.face_bias).distance <= touching) return false;
   }
   return true;
 }
@@ -213,7 +220,7 @@ ContactPoints PolyhedronCollision::met_on_the_way(const Pair& pair, const Placed
   if (way.norm() < long_way * size) return {};
   const double step = 1 / std::min(most_looks, std::ceil(way.norm() / (between * size)));
   const auto meets = [&](double part) {
-    return packing::separation(packing::shifted(first, part * way), second, 0, ranges_.face_bias).distance <= 0;
+    return packing::separation(packing::shifted(first, part * way), second, 0, pair.face_bias).distance <= 0;
   };
   double part = step;
   while (part <= 1 + 0.5 * step && !meets(part)) part += step;
@@ -223,7 +230,7 @@ ContactPoints PolyhedronCollision::met_on_the_way(const Pair& pair, const Placed
     if (meets(part - half)) part -= half;
   }
   const PlacedPiece there = packing::shifted(first, part * way);
-  packing::Separation met = packing::separation(there, second, std::numeric_limits<double>::infinity(), ranges_.face_bias);
+  packing::Separation met = packing::separation(there, second, std::numeric_limits<double>::infinity(), pair.face_bias);
   if (only_surfaces_ && !on_surfaces(pair, met)) return {};
   ContactPoints points = points_at(pair, there, second, met, ranges_.near);
   const double closes = met.normal.dot(part * way);

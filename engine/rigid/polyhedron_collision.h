@@ -44,6 +44,8 @@ class PolyhedronCollision final : public OwnCollision {
     Side first, second;
     double reach;      // how near a point must be to become a contact in this step [m]
     double time_step;  // [s]
+    double face_bias;  // see packing::separation [m]
+    double still;      // the pair keeps its points if it moved less than this since they were computed [m]
   };
 
   [[nodiscard]] Pair pair_of(const Side& first, const Side& second, double time_step) const;

@@ -52,6 +52,8 @@ TEST(HardFalls, BlocksThatStartInEachOtherComeApartWithoutAnExplosion) {
   EXPECT_EQ(run.summary["settle"]["lost_blocks"], 0);
   EXPECT_LT(run.summary["settle"]["max_penetration"].get<double>(), 1e-4);
   EXPECT_LT(run.summary["settle"]["top"].get<double>(), 0.35);
+  const std::string remark = run.summary["remarks"][0];
+  EXPECT_TRUE(remark.starts_with("suspicious: block ") && remark.ends_with(" m before anything moves")) << remark;
 }
 
 TEST(HardFalls, BlocksThatStartDeepInEachOtherAreNamed) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -126,6 +127,36 @@ TEST(AngleOfRepose, OfAConeIsTheSameUnderAHopper) {
   const auto under = angle_of_repose(cut(mesh));
   ASSERT_TRUE(bare && under);
   EXPECT_NEAR(under->angle, bare->angle, 1e-12);
+}
+
+// Cubes one above the other up to `height` at each place of a square of 51 by 51.
+mesh::BlockMesh<3> heap(const std::function<double(double x, double y)>& height) {
+  mesh::BlockMesh<3> mesh;
+  for (int i = -25; i <= 25; ++i) {
+    for (int j = -25; j <= 25; ++j) {
+      for (int k = 0; k + 0.5 < height(i, j); ++k) add_box(mesh, Vector3d(1, 1, 1), Vector3d(i, j, k + 0.5), false);
+    }
+  }
+  return mesh;
+}
+
+TEST(AngleOfRepose, IsNotGivenForWhatIsNoSingleRoundHeap) {
+  const auto cone_at = [](double x, double y) { return 0.6 * (12 - std::hypot(x, y)); };
+  EXPECT_TRUE(angle_of_repose(cut(heap(cone_at))));
+  EXPECT_FALSE(angle_of_repose(cut(heap([&](double x, double y) { return std::max(cone_at(x - 9, y), cone_at(x + 9, y)); }))));
+  EXPECT_FALSE(
+      angle_of_repose(cut(heap([&](double x, double y) { return cone_at(std::max(0.0, std::abs(x) - 13), y); }))));  // a ridge
+  EXPECT_FALSE(angle_of_repose(
+      cut(heap([](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 16 ? 4.0 : 0.0; }))));  // a layer
+}
+
+TEST(AngleOfRepose, FitsARoundHeapNearlyAndAnOvalOneLess) {
+  const auto fit = [](double aspect) {
+    return angle_of_repose(cut(heap([&](double x, double y) { return 0.8 * (20 - std::hypot(aspect * x, y)); })))->fit;
+  };
+  EXPECT_GT(fit(1), 0.95);
+  EXPECT_LT(fit(1.5), 0.85);
+  EXPECT_GT(fit(1.5), 0.65);
 }
 
 TEST(AngleOfRepose, IsNotGivenForACrater) {

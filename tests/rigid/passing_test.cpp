@@ -33,6 +33,24 @@ TEST(Passing, ABlockSlidesOverTheSeamOfTwoPlatesAsOverOne) {
   }
 }
 
+// A cube of 1 cm whose edge comes down across the edge of a plate; a boulder a hundred times as large, far away, is nothing to
+// it.
+TEST(Passing, APebbleMeetsAnEdgeTheSameWayWhateverElseThereIs) {
+  const auto after = [](double time, bool boulder) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {1, 1, 1}, {-0.5, 0, -0.5}, true);
+    // Its lowest edge falls off towards x, and lies over the plate's by a tenth of a millimetre.
+    const Eigen::AngleAxisd about_x(M_PI / 4, Vector3d::UnitX()), about_y(M_PI / 4, Vector3d::UnitY());
+    const Vector3d up(std::sqrt(0.5), 0, std::sqrt(0.5));
+    const Pose pose{(0.005 * std::sqrt(2) + 1e-4) * up, Eigen::Quaterniond(about_y * about_x)};
+    const BlockId pebble = add_box(mesh, Vector3d::Constant(0.01), pose, false);
+    if (boulder) add_box(mesh, {1, 1, 1}, {20, 0, 0}, false);
+    return settle(mesh, material(0.5), for_time(time)).poses[pebble].translation;
+  };
+  for (int steps = 1; steps <= 12; ++steps)
+    EXPECT_LT((after(steps / 240.0, true) - after(steps / 240.0, false)).norm(), 0.05 * 0.01) << steps;
+}
+
 // Of blocks that are free themselves.
 TEST(Passing, ABlockSlidesOverAPavementOfBlocks) {
   mesh::BlockMesh<3> mesh;

@@ -87,6 +87,7 @@ TEST(BlockOnASlope, ThatStillSlidesIsAcceptedOnlyWhereTheSceneSaysSo) {
       test::run("slope", fresh_directory("slope_accepted"), {"materials.rock.friction=0.3", "settle.accept_moving=true"});
   EXPECT_EQ(run.exit_status, 0);
   EXPECT_FALSE(run.summary["settle"]["at_rest"]);
+  EXPECT_EQ(run.summary["remarks"][0], "packing: its blocks were still moving when it was written");
 }
 
 TEST(PouredStones, SettleTheSameWayTwice) {

@@ -126,15 +126,15 @@ std::string slow_study() {
 // Starts the study in the background, and goes on with `next` when its first run is under way.
 Ended while_it_runs(const OneStudy& study, const std::string& next) {
   const std::string first = (study.out / "runs").string() + "/*/scene.yaml";
-  return shell(fmt::format("({} & study=$!; until ls {} >/dev/null 2>&1; do sleep 0.01; done; {})", study.command("--jobs 1"),
-                           first, next),
-               study.file.parent_path());
+  const std::string begun = fmt::format("until ls {} >/dev/null 2>&1 || ! kill -0 $study; do sleep 0.01; done", first);
+  return shell(fmt::format("({} & study=$!; {}; {})", study.command("--jobs 1 --json"), begun, next), study.file.parent_path());
 }
 
 TEST(StudyCommand, StopsItsRunsWhenInterruptedAndGoesOnLater) {
   const OneStudy study(slow_study());
   const Ended ended = while_it_runs(study, "kill -TERM $study; wait $study");
   EXPECT_EQ(ended.status, 130) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr(R"("event":"end","status":"interrupted","exit_status":130)"));
   EXPECT_EQ(study.run().status, 0);
   EXPECT_THAT(study.table().find("status")->texts, Each("complete"));
 }
@@ -203,6 +203,7 @@ TEST(StudyCommand, RefusesWhatIsWrongBeforeAnyRun) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.text, HasSubstr("heat.tolerance is 2 m"));
   EXPECT_FALSE(fs::exists(study.out));
+  EXPECT_THAT(study.run("--json").text, HasSubstr(R"("status":"bad_input")"));
 }
 
 TEST(StudyCommand, NamesBareTemperaturesOfItsOwnOnce) {

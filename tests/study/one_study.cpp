@@ -36,7 +36,8 @@ Ended shell(const std::string& command, const std::filesystem::path& folder) {
 OneStudy::OneStudy(const std::string& text) : file(study_file(falling_scene, text)), out(file.parent_path() / "out") {}
 
 std::string OneStudy::command(const std::string& options) const {
-  return std::string(SCREE_PROGRAM) + " study " + file.string() + " --quiet --threads 1 --out " + out.string() + " " + options;
+  const std::string words = options.find("--json") == std::string::npos ? "--quiet " + options : options;
+  return std::string(SCREE_PROGRAM) + " study " + file.string() + " --threads 1 --out " + out.string() + " " + words;
 }
 
 Ended OneStudy::run(const std::string& options) const {

@@ -41,9 +41,9 @@ report: [heat.time_error]
 )");
   const auto folder = std::filesystem::absolute(study.file).parent_path();
   const auto quoted = [](const std::filesystem::path& path) { return '"' + path.string() + '"'; };
-  EXPECT_EQ(study.overrides[0],
+  EXPECT_EQ(study.changes[0].assignment,
             "heat.initial={\"block\": {\"table\": " + quoted(folder / "warm.csv") + "}, \"floor\": \"20 degC\", \"other\": ~}");
-  EXPECT_EQ(study.overrides[1],
+  EXPECT_EQ(study.changes[1].assignment,
             "heat.boundaries=[{\"body\": \"floor\", \"temperature\": {\"table\": " + quoted(folder.parent_path() / "t.csv") +
                 "}}, {\"body\": \"block\", \"temperature\": {\"table\": [[\"0\", \"300\"], [\"9\", \"310\"]]}}]");
   const std::vector<Level>& levels = study.factors[0].levels;
@@ -159,6 +159,11 @@ TEST(ReadStudy, SaysWhereInTheStudyAValueThatDoesNotSuitTheSceneStands) {
                          "  - {key: contact.stiffness_factor, values: [10, -3]}\n"
                          "report: [heat.time_error]\n"),
               StartsWith("s.yaml:3:50: contact.stiffness_factor is -3 (must be not negative). Did you mean 3?"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\n"
+                         "set: [heat.until=1 h, heat.tolerance=2 m]\n"
+                         "vary: [{key: contact.stiffness_factor, values: [10]}]\n"
+                         "report: [heat.time_error]\n"),
+              StartsWith("s.yaml:2:23: heat.tolerance is 2 m (must be"));
 }
 
 TEST(ReadStudy, NamesTheKeyThatWasProbablyMeant) {
@@ -215,6 +220,7 @@ TEST(ReadStudy, RefusesFiguresThatTheScenesRunsCannotReport) {
     return wrong_with("scene: scene.yaml\nvary: [{key: heat.until, values: [1 h]}]\nreport: [" + report + "]\n");
   };
   EXPECT_EQ(with("heat.probes.top.temperature"), "accepted");
+  EXPECT_EQ(with("models.0.name"), "accepted");
   for (const char* name : {"\"\"", "\".\"", "{column: \"\", path: blocks}"}) {
     EXPECT_THAT(with(name), HasSubstr("must be the name of a column")) << name;
   }
@@ -238,6 +244,8 @@ TEST(ReadStudy, RefusesWhatWouldCountDoubleOrNotAtAll) {
               HasSubstr("s.yaml:2:45: heat.until is 60 min (must not be given twice)"));
   EXPECT_THAT(wrong_with("scene: scene.yaml\nset: [heat.until=3 h]\nvary: [{key: heat.until, values: [1 h, 2 h]}]" + rest),
               HasSubstr("heat.until is varied (must not be in set, too: heat.until=3 h)"));
+  EXPECT_THAT(wrong_with("scene: scene.yaml\nvary: [{key: bodies.block.box.centre, values: [[0, 0, 1], [0, 0, 2]]}]" + rest),
+              testing::Not(HasSubstr("twice")));
 }
 
 TEST(ReadStudy, TakesThePathOfAKeyInOneOfItsTwoSpellingsOnly) {

@@ -25,7 +25,7 @@ void add_bulk(Rows& rows, const Json& certificate) {
   rows.push_back({"height", metres(certificate, "height")});
   rows.push_back({"angle of repose", value_or(certificate, "angle_of_repose_degrees",
                                               "none: walls hold the pile, or it is too "
-                                              "small or flat") +
+                                              "small, too flat or no single round heap") +
                                          (certificate["angle_of_repose_degrees"].is_null() ? "" : " degrees")});
 }
 

@@ -212,6 +212,7 @@ Json certificate(const Scene& scene, const packing::Packing<3>& packing) {
   add_distances(json, measured.pairs);
   json["height"] = packing.settled->top;
   json["angle_of_repose_degrees"] = repose ? Json(repose->angle * 180 / std::numbers::pi) : Json(nullptr);
+  json["angle_of_repose_fit"] = repose ? Json(repose->fit) : Json(nullptr);
   json["packing_hash"] = geometry_hash(placed);
   return json;
 }

@@ -17,6 +17,7 @@
 #include "tools/run/keys.h"
 #include "tools/run/preflight.h"
 #include "tools/scene/read_scene.h"
+#include "tools/scene/suspicions.h"
 
 namespace scree::run {
 
@@ -64,7 +65,8 @@ void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& b
   if (!known) context.remark("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
 }
 
-// Whoever names a packing accepts it as it is, which the run that made it may not have done.
+// Whoever names a packing accepts it as it is, which the run that made it may not have done; `settle.accept_moving` accepts one
+// that moves.
 template <int dim>
 void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
   if (!packing.settled) return;
@@ -74,6 +76,12 @@ void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
   if (overlap > SettleStage{}.largest_overlap) {
     context.remark(fmt::format("packing: two of its blocks overlap by {:.3g} of the mean edge", overlap));
   }
+}
+
+// Of blocks that are let go one after the other those that wait may lie where others were before.
+void note_overlaps(RunContext& context, const mesh::BlockMesh<3>& blocks) {
+  if (context.scene.settle->options.release_time > 0) return;
+  for (const std::string& sentence : overlapping_bodies(blocks)) context.remark("suspicious: " + sentence);
 }
 
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
@@ -109,6 +117,7 @@ std::optional<packing::Packing<3>> earlier_packing(RunContext& context) {
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   check_clearance(context.scene, blocks);
   check_heat(context.scene, blocks);
+  note_overlaps(context, blocks);
   if (packing::stored_key(context.files.packing()) == key) {
     if (auto earlier = earlier_packing(context)) return {*std::move(earlier), true};
   }
@@ -202,6 +211,7 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
   } else {
     outcome = {packing::unmoved<dim>(std::move(blocks)), false};
   }
+  if (context.scene.settle && context.scene.settle->accept_moving) note_unsettled(context, outcome.packing);
   outcome.packing.key = key;
   if (context.scene.settle && !outcome.reused) packing::write(outcome.packing, context.files.packing());
   return outcome;

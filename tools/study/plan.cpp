@@ -16,7 +16,8 @@ namespace scree::study {
 namespace {
 
 std::vector<std::string> overrides_of(const Study& study, const Point& point) {
-  std::vector<std::string> overrides = study.overrides;
+  std::vector<std::string> overrides;
+  for (const Change& change : study.changes) overrides.push_back(change.assignment);
   for (std::size_t i = 0; i < study.factors.size(); ++i) {
     for (const std::string& key : study.factors[i].keys) overrides.push_back(key + "=" + point.levels[i].text);
   }
@@ -32,8 +33,11 @@ SourceLocation place_in_study(const Study& study, const Point& point, const Sour
     if (std::any_of(keys.begin(), keys.end(), is_of)) return point.levels[i].where;
   }
   if (study.ensemble && is_of(study.ensemble->name())) return study.ensemble->where;
-  if (where.file.starts_with("--set ")) return {study.file.string() + " (" + where.file + ")", 0, 0};
-  return where;
+  const auto sets = [&](const Change& change) {
+    return where.file == "--set " + change.assignment.substr(0, change.assignment.find('='));
+  };
+  const auto change = std::find_if(study.changes.begin(), study.changes.end(), sets);
+  return change == study.changes.end() ? where : change->where;
 }
 
 // Collects what is wrong with the runs, each thing once.
@@ -74,9 +78,10 @@ bool starts_with_part(const std::string& path, const std::string& part) {
 void check_reports(const Study& study, const Scene& scene, Complaints& complaints) {
   std::vector<std::string> probes;
   for (const auto& probe : scene.probes) probes.push_back(probe.name);
-  const std::vector<std::string> parts{"status", "version",  "title",     "blocks", "elements",
-                                       "nodes",  "contacts", "settle",    "joints", "effective_conductivity",
-                                       "heat",   "stages",   "scene_hash"};
+  const std::vector<std::string> parts{"status",        "version", "title",  "models",     "blocks",
+                                       "elements",      "nodes",   "settle", "contacts",   "joints",
+                                       "heat",          "stages",  "scene",  "scene_hash", "effective_conductivity",
+                                       "error_estimate"};
   for (const Report& report : study.reports) {
     const std::string heat_probe = "heat.probes.";
     std::string probe = report.probe;

@@ -33,7 +33,7 @@ class Reader {
     if (root.at("scene").sound && !fs::is_regular_file(study.scene, ignored)) {
       refuse(root.at("scene"), "must be a scene file that exists");
     }
-    for (const Checked& change : root.at("set").items) study.overrides.push_back(assignment(change));
+    for (const Checked& change : root.at("set").items) study.changes.push_back({assignment(change), change.where});
     study.error_estimate = root.at("error_estimate").flag();
     for (const Checked& varied : root.at("vary").items) study.factors.push_back(factor(varied));
     if (const Checked* hypercube = root.find("latin_hypercube")) {
@@ -107,6 +107,7 @@ class Reader {
     std::set<std::string> texts;
     std::set<double> numbers;
     for (const Level& level : factor.levels) {
+      if (level.text.empty()) continue;  // no value, which is refused by itself
       const bool fresh = level.number ? numbers.insert(*level.number).second : texts.insert(level.text).second;
       if (!fresh)
         problems_.push_back({level.where, factor.keys.front(), level.text, "must not be given twice", "Take one out"});

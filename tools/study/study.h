@@ -18,6 +18,12 @@ struct Level {
   SourceLocation where;
 };
 
+// What every run has otherwise than the scene.
+struct Change {
+  std::string assignment;  // as `--set` takes it
+  SourceLocation where;
+};
+
 // All values between two, in SI.
 struct Interval {
   double low = 0;
@@ -61,7 +67,7 @@ struct Report {
 struct Study {
   std::filesystem::path file;
   std::filesystem::path scene;
-  std::vector<std::string> overrides;  // of every run
+  std::vector<Change> changes;  // of every run
   std::vector<Factor> factors;
   std::optional<LatinHypercube> hypercube;  // nothing: every combination
   std::optional<Factor> ensemble;           // its members repeat every combination

@@ -209,6 +209,26 @@ int dispatch(const Arguments& arguments, const Study& study, const std::vector<P
   return arguments.task > 0 ? make_one(arguments, study, runs, files) : make_all(arguments, study, runs, files);
 }
 
+int plan_and_make(const Arguments& arguments) {
+  const Study study = read_study(arguments.study);
+  const std::vector<PlannedRun> runs = plan(study);
+  {
+    Progress progress(mode_of(arguments));
+    say_repeats(study, runs, progress);
+    say_suspicions(study, runs, progress);
+  }
+  if (arguments.list) return list(runs);
+  const StudyFiles files{directory_of(arguments)};
+  for (const char* folder : {"runs", "packings"}) run::make_output_folder(files.directory / folder);
+  run::catch_interrupts();
+  return dispatch(arguments, study, runs, files);
+}
+
+// A program that follows the study is told how it ended in its own way.
+void tell_end(const Arguments& arguments, const std::string& status, int exit_status, const std::string& reason) {
+  if (arguments.json) Progress(ProgressMode::json).end({status, exit_status, "", {reason}});
+}
+
 }  // namespace
 
 void declare(CLI::App& command, Arguments& arguments) {
@@ -233,22 +253,19 @@ void declare(CLI::App& command, Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  const Study study = read_study(arguments.study);
-  const std::vector<PlannedRun> runs = plan(study);
-  {
-    Progress progress(mode_of(arguments));
-    say_repeats(study, runs, progress);
-    say_suspicions(study, runs, progress);
-  }
-  if (arguments.list) return list(runs);
-  const StudyFiles files{directory_of(arguments)};
-  for (const char* folder : {"runs", "packings"}) run::make_output_folder(files.directory / folder);
-  run::catch_interrupts();
   try {
-    return dispatch(arguments, study, runs, files);
+    return plan_and_make(arguments);
   } catch (const run::Interrupted&) {
-    fmt::print(stderr, "scree: interrupted; the same command goes on\n");
+    constexpr const char* words = "interrupted; the same command goes on";
+    tell_end(arguments, "interrupted", 130, words);
+    fmt::print(stderr, "scree: {}\n", words);
     return 130;
+  } catch (const InputError& error) {
+    tell_end(arguments, "bad_input", 2, error.what());
+    throw;
+  } catch (const std::exception& error) {
+    tell_end(arguments, "failed", 1, error.what());
+    throw;
   }
 }
 
