@@ -36,6 +36,9 @@ Look look_of(const RenderArguments& arguments) {
   if (array == "temperature") return {array, "temperature [degC]", -273.15};
   if (array == "heat_flux") return {array, "heat flux [W/m2]"};
   if (array == "heat_flow") return {array, "heat flow [W]"};
+  if (array == "space_error") return {array, "space error [K]"};
+  if (array == "area") return {array, "area [m2]"};
+  if (array == "gap") return {array, "gap [m]"};
   return {array, array};
 }
 

@@ -58,7 +58,7 @@ vtkDataArray* select_array(vtkUnstructuredGrid& grid, const Picture& picture) {
   Problem problem;
   problem.key = "array";
   problem.value = picture.array;
-  problem.rule = "one of " + array_names(grid);
+  problem.rule = "must be one of " + array_names(grid);
   throw InputError(std::move(problem));
 }
 

@@ -114,7 +114,7 @@ TEST_F(RenderTest, AnUnknownArrayIsAnErrorThatListsTheKnownOnes) {
     render(picture_, png_);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "array is heat (one of temperature, body)");
+    EXPECT_STREQ(error.what(), "array is heat (must be one of temperature, body)");
   }
 }
 

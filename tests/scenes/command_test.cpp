@@ -138,6 +138,10 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
 TEST(Command, MakesALadderAgainIntoItsFolder) {
   const std::string ladder = "accuracy " + scene("slab") + " --quiet --mesh 2 1 --tolerance \"1 K\" --set heat.until=\"10 s\"";
   const auto directory = fresh_directory("accuracy_twice");
+  {
+    const auto lock = run::FileLock::take(directory / ".lock", run::FileLock::Kind::exclusive, run::FileLock::Heirs::none);
+    EXPECT_NE(scree(ladder + " --out " + directory.string()).text.find("is at work there"), std::string::npos);
+  }
   for (int i = 0; i < 2; ++i) {
     const Outcome outcome = scree(ladder + " --out " + directory.string());
     EXPECT_EQ(outcome.status, 0) << outcome.text;

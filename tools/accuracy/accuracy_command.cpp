@@ -16,6 +16,7 @@
 #include "tools/accuracy/analysis.h"
 #include "tools/accuracy/report.h"
 #include "tools/run/child_process.h"
+#include "tools/run/file_lock.h"
 #include "tools/run/forget_run.h"
 #include "tools/run/interrupt.h"
 #include "tools/run/output_place.h"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* table_name = "accuracy.csv";
 constexpr const char* picture_name = "accuracy.png";
+constexpr const char* lock_name = ".lock";
 
 double kelvin_difference(const std::string& text) {
   const auto parsed = parse_quantity(text, quantity::temperature_difference);
@@ -127,6 +129,15 @@ class Study {
   fs::path directory_;
 };
 
+run::FileLock lock_of(const fs::path& directory) {
+  auto lock = run::FileLock::take(directory / lock_name, run::FileLock::Kind::exclusive, run::FileLock::Heirs::children);
+  if (!lock) {
+    throw RunError(fmt::format("{}: another `scree accuracy`, or a run that one has left behind, is at work there. Wait for it",
+                               directory.string()));
+  }
+  return std::move(*lock);
+}
+
 // The runs of the ladder; only the first of them if Ctrl-C or SIGTERM has come.
 std::vector<Measured> make_all(const Study& study, const std::vector<Rung>& ladder, Progress& progress) {
   run::catch_interrupts();
@@ -214,6 +225,7 @@ int run(const Arguments& arguments) {
   const fs::path directory = arguments.directory.empty() ? fs::path("out") / (scene.file.stem().string() + "-accuracy")
                                                          : fs::path(arguments.directory);
   run::make_output_folder(directory);
+  const run::FileLock lock = lock_of(directory);
   // Of an earlier call: whoever finds them must not take them for what an interrupted one has found.
   for (const char* earlier : {table_name, picture_name}) fs::remove(directory / earlier);
 

@@ -10,6 +10,13 @@ std::string metres(const Json& json, const std::string& key) {
   return figure(number(json, key)) + " m";
 }
 
+std::string repose(const Json& certificate) {
+  if (certificate["angle_of_repose_degrees"].is_null())
+    return "none: walls hold the pile, or it is too small, too flat or no single round heap";
+  return fmt::format("{} degrees (fit {})", figure(number(certificate, "angle_of_repose_degrees")),
+                     value_or(certificate, "angle_of_repose_fit", "not known"));
+}
+
 void add_bulk(Rows& rows, const Json& certificate) {
   const Json& porosity = certificate["porosity"];
   if (porosity.is_null()) {
@@ -23,10 +30,7 @@ void add_bulk(Rows& rows, const Json& certificate) {
   rows.push_back({"neighbours of a block inside", value_or(coordination, "mean", "-")});
   rows.push_back({"neighbours of a block anywhere", value_or(coordination, "mean_of_all", "-")});
   rows.push_back({"height", metres(certificate, "height")});
-  rows.push_back({"angle of repose", value_or(certificate, "angle_of_repose_degrees",
-                                              "none: walls hold the pile, or it is too "
-                                              "small, too flat or no single round heap") +
-                                         (certificate["angle_of_repose_degrees"].is_null() ? "" : " degrees")});
+  rows.push_back({"angle of repose", repose(certificate)});
 }
 
 void add_forces(Rows& rows, const Json& certificate) {
