@@ -29,16 +29,20 @@ Hdf5Handle space_of(const Hdf5Handle& set, const std::string& name) {
   return {H5Dget_space(set.id()), H5Sclose, name};
 }
 
-std::size_t size_of(const Hdf5Handle& space, const std::string& name) {
+// How many values it has. A damaged one that claims more than its bytes in the file can hold is found before memory is asked
+// for.
+std::size_t size_of(const Hdf5Handle& set, const Hdf5Handle& space, const std::string& name) {
+  constexpr double most_in_a_byte = 2048;  // zlib makes a thousandth of what is all alike
   const hssize_t size = H5Sget_simple_extent_npoints(space.id());
-  hdf5_expect(size >= 0, name);
+  const auto bytes = static_cast<double>(H5Dget_storage_size(set.id()));
+  hdf5_expect(size >= 0 && static_cast<double>(size) <= most_in_a_byte * bytes, name);
   return static_cast<std::size_t>(size);
 }
 
 template <class T>
 std::vector<T> numbers(const Hdf5Handle& file, const std::string& name, hid_t type) {
   const Hdf5Handle set = set_of(file, name);
-  std::vector<T> values(size_of(space_of(set, name), name));
+  std::vector<T> values(size_of(set, space_of(set, name), name));
   if (!values.empty()) hdf5_expect(H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   return values;
 }
@@ -77,7 +81,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
 std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   const Hdf5Handle set = set_of(file_, name);
   const Hdf5Handle space = space_of(set, name);
-  std::vector<char*> starts(size_of(space, name));
+  std::vector<char*> starts(size_of(set, space, name));
   if (starts.empty()) return {};
   const Hdf5Handle type = hdf5_text_type();
   hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
