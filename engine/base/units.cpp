@@ -123,23 +123,24 @@ Unit parse_unit(std::string_view spelling, ut_system* table) {
   return Unit{ut_parse(table, std::string(spelling).c_str(), UT_UTF8)};
 }
 
+constexpr std::string_view raised_minus = "⁻";
+
 // m⁻² as m-2: UDUNITS knows the raised digits, but not the minus.
 std::string without_superscripts(std::string_view spelling) {
-  constexpr std::string_view minus = "⁻";
   constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string plain(spelling);
   const auto replace = [&plain](std::string_view raised, const std::string& by) {
     for (auto at = plain.find(raised); at != std::string::npos; at = plain.find(raised, at))
       plain.replace(at, raised.size(), by);
   };
-  replace(minus, "-");
+  replace(raised_minus, "-");
   for (std::size_t i = 0; i < digits.size(); ++i) replace(digits[i], std::to_string(i));
   return plain;
 }
 
 Unit parse_unit(std::string_view spelling) {
   if (spelling.starts_with('/')) return parse_unit(fmt::format("1{}", spelling));  // 10 /s
-  if (spelling.find("⁻") != std::string_view::npos) return parse_unit(without_superscripts(spelling));
+  if (spelling.find(raised_minus) != std::string_view::npos) return parse_unit(without_superscripts(spelling));
   if (!plain_spelling(spelling)) return nullptr;
   return parse_unit(spelling, in_short_table(spelling) ? short_table() : long_table());
 }

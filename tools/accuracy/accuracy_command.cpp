@@ -129,15 +129,6 @@ class Study {
   fs::path directory_;
 };
 
-run::FileLock lock_of(const fs::path& directory) {
-  auto lock = run::FileLock::take(directory / lock_name, run::FileLock::Kind::exclusive, run::FileLock::Heirs::children);
-  if (!lock) {
-    throw RunError(fmt::format("{}: another `scree accuracy`, or a run that one has left behind, is at work there. Wait for it",
-                               directory.string()));
-  }
-  return std::move(*lock);
-}
-
 // The runs of the ladder; only the first of them if Ctrl-C or SIGTERM has come.
 std::vector<Measured> make_all(const Study& study, const std::vector<Rung>& ladder, Progress& progress) {
   run::catch_interrupts();
@@ -225,7 +216,7 @@ int run(const Arguments& arguments) {
   const fs::path directory = arguments.directory.empty() ? fs::path("out") / (scene.file.stem().string() + "-accuracy")
                                                          : fs::path(arguments.directory);
   run::make_output_folder(directory);
-  const run::FileLock lock = lock_of(directory);
+  const auto lock = run::FileLock::of_command(directory / lock_name, run::FileLock::Kind::exclusive, "accuracy");
   // Of an earlier call: whoever finds them must not take them for what an interrupted one has found.
   for (const char* earlier : {table_name, picture_name}) fs::remove(directory / earlier);
 

@@ -41,6 +41,13 @@ std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind k
   throw RunError(fmt::format("{}: cannot be locked ({})", file.string(), std::strerror(errno)));
 }
 
+FileLock FileLock::of_command(const std::filesystem::path& file, Kind kind, const std::string& command) {
+  auto lock = take(file, kind, Heirs::children);
+  if (lock) return std::move(*lock);
+  throw RunError(fmt::format("{}: another `scree {}`, or a run that one has left behind, is at work there. Wait for it",
+                             file.parent_path().string(), command));
+}
+
 FileLock FileLock::wait(const std::filesystem::path& file) {
   constexpr auto pause = std::chrono::milliseconds(5);
   while (true) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace scree::run {
 
@@ -13,6 +14,10 @@ class FileLock {
 
   // Nothing if somebody else holds it. Throws RunError if the file cannot be made.
   static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind, Heirs heirs);
+
+  // For a command, by its name, that starts runs in the file's folder, which hold the lock with it. Throws RunError if another
+  // one, or a run of its, holds it.
+  static FileLock of_command(const std::filesystem::path& file, Kind kind, const std::string& command);
 
   // The same for this process alone, as soon as nobody else holds it.
   static FileLock wait(const std::filesystem::path& file);

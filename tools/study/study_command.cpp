@@ -95,17 +95,8 @@ ProgressMode mode_of(const Arguments& arguments) {
   return arguments.json ? ProgressMode::json : progress_mode(arguments.quiet);
 }
 
-run::FileLock lock_of(const StudyFiles& files, run::FileLock::Kind kind) {
-  auto lock = run::FileLock::take(files.lock(), kind, run::FileLock::Heirs::children);
-  if (!lock) {
-    throw RunError(fmt::format("{}: another `scree study`, or a run that one has left behind, is at work there. Wait for it",
-                               files.directory.string()));
-  }
-  return std::move(*lock);
-}
-
 int make_all(const Arguments& arguments, const Study& study, const std::vector<PlannedRun>& runs, const StudyFiles& files) {
-  const run::FileLock lock = lock_of(files, run::FileLock::Kind::exclusive);
+  const auto lock = run::FileLock::of_command(files.lock(), run::FileLock::Kind::exclusive, "study");
   publish_packings(files, runs);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("{} runs", runs.size()));
@@ -133,7 +124,7 @@ int make_one(const Arguments& arguments, const Study& study, const std::vector<P
     problem.rule = fmt::format("must be at most {}, the number of runs", runs.size());
     throw InputError(problem);
   }
-  const run::FileLock lock = lock_of(files, run::FileLock::Kind::shared);
+  const auto lock = run::FileLock::of_command(files.lock(), run::FileLock::Kind::shared, "study");
   publish_packings(files, runs);
   Progress progress(mode_of(arguments));
   progress.start("study", fmt::format("run {}", arguments.task));
