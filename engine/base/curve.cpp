@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -133,9 +135,11 @@ class Formula : public Curve::Form {
   static constexpr int most_halvings = 40;
   static constexpr std::size_t most_pieces = 2000;
   // Where the rule over a whole and over its halves differ by more than this share, or the polynomial and the formula by more
-  // than that, the formula is not smooth there.
+  // than that and what the rounding of temperatures makes, the formula is not smooth there.
   static constexpr double smooth_integral = 1e-12;
   static constexpr double smooth_value = 1e-11;
+  // What jumps or bends may do so between Gauss's points, and is looked at from one end to the other [K].
+  static constexpr double look_apart = 0.02;
 
   struct Kept {
     double begin;   // [K]
@@ -180,15 +184,33 @@ class Formula : public Curve::Form {
     sum_up(rises);
   }
 
-  // From a reference that is usual for temperatures, or is the nearest to it at which there is a value, up and down: where a
-  // formula grows beyond all bounds towards 0 K, as 1/T^2, sums from there would drown all differences in their rounding.
-  void sum_up(const std::vector<double>& rises) const {
-    constexpr int reference = 300;  // [K]
+  // A temperature that is usual.
+  static constexpr std::size_t reference = 300;  // [K]
+
+  // Where a formula all but vanishes towards 0 K, as T^3, sums from a usual temperature would drown differences there in their
+  // rounding.
+  [[nodiscard]] bool vanishes_at_zero(const std::vector<double>& rises) const {
+    const auto sum = [&](std::size_t kelvin) {
+      return std::accumulate(rises.begin(), rises.begin() + static_cast<std::ptrdiff_t>(first_of_kelvin_[kelvin]), 0.0);
+    };
+    constexpr double of_a_constant = 1.0 / reference;
+    return std::abs(sum(1)) < 0.3 * of_a_constant * std::abs(sum(reference));
+  }
+
+  // The piece that sums begin at, up and down: at a temperature that is usual, or the nearest to it at which there is a value.
+  // Where a formula grows beyond all bounds towards 0 K, as 1/T^2, sums from there would drown all other differences.
+  [[nodiscard]] std::size_t first_summed(const std::vector<double>& rises) const {
+    if (vanishes_at_zero(rises)) return 0;
     std::size_t start = first_of_kelvin_[reference];
     for (int away = 0; away < last_kelvin && !std::isfinite(rises[start]); ++away) {
-      const int kelvin = away % 2 == 0 ? reference - away / 2 : reference + away / 2 + 1;
+      const int kelvin = static_cast<int>(reference) + (away % 2 == 0 ? -away / 2 : away / 2 + 1);
       if (kelvin >= 0) start = first_of_kelvin_[static_cast<std::size_t>(kelvin)];
     }
+    return start;
+  }
+
+  void sum_up(const std::vector<double>& rises) const {
+    const std::size_t start = first_summed(rises);
     double sum = 0;
     for (std::size_t i = start; i < kept_.size(); ++i) {
       kept_[i].before = sum;
@@ -206,9 +228,8 @@ class Formula : public Curve::Form {
   void append(double from, double to, const Piece& whole, int halvings, std::vector<double>& rises) const {
     const double middle = 0.5 * (from + to);
     const Piece left = through(from, middle), right = through(middle, to);
-    const bool smooth = std::abs(left.whole() + right.whole() - whole.whole()) <=
-                            smooth_integral * (std::abs(left.whole()) + std::abs(right.whole())) &&
-                        follows(whole, from, left, middle, right, to);
+    const bool smooth = sums_up(whole, from, left, right, to) && follows(whole, from, left, middle, right, to) &&
+                        holds_between_points(whole, from, to);
     const bool nowhere = !std::isfinite(whole.whole()) && valueless(from, middle) && valueless(middle, to);
     if (!smooth && !nowhere && halvings > 0 && room_ > 0) {
       --room_;
@@ -226,17 +247,44 @@ class Formula : public Curve::Form {
                         [&](double s) { return std::isfinite(raw(0.5 * (from + to) + 0.5 * (to - from) * s)); });
   }
 
+  // What a value may be off by, because its temperature is rounded.
+  static double noise(const Piece& piece, double temperature) {
+    constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
+    return roundings * temperature * std::abs(piece.slope(temperature));
+  }
+
+  // Whether the polynomial gives this value at a temperature.
+  static bool gives(const Piece& piece, double temperature, double value) {
+    return std::abs(piece.value(temperature) - value) <= smooth_value * std::abs(value) + noise(piece, temperature);
+  }
+
+  // Whether the integral of a whole is that of its halves.
+  static bool sums_up(const Piece& whole, double from, const Piece& left, const Piece& right, double to) {
+    const double size = std::abs(left.whole()) + std::abs(right.whole());
+    return std::abs(left.whole() + right.whole() - whole.whole()) <=
+           smooth_integral * size + std::max(noise(whole, from), noise(whole, to)) * (to - from);
+  }
+
   // Whether the polynomial of a whole gives what those of its halves do.
   static bool follows(const Piece& whole, double from, const Piece& left, double middle, const Piece& right, double to) {
-    const auto same = [&](const Piece& half, double temperature) {
-      const double value = half.value(temperature);
-      return std::abs(whole.value(temperature) - value) <= smooth_value * std::abs(value);
-    };
+    const auto same = [&](const Piece& half, double temperature) { return gives(whole, temperature, half.value(temperature)); };
     bool all = true;
     for (const double s : {0.0, 0.3, 0.7, 1.0}) {
       all = all && same(left, from + s * (middle - from)) && same(right, middle + s * (to - middle));
     }
     return all;
+  }
+
+  // Whether the polynomial gives what a formula that may bend does, at its ends and in between.
+  [[nodiscard]] bool holds_between_points(const Piece& whole, double from, double to) const {
+    if (!expression_.may_bend()) return true;
+    const double end = std::nextafter(to, from);  // at `to` the next piece begins
+    const int looks = static_cast<int>(std::ceil((to - from) / look_apart));
+    for (int i = 0; i <= looks; ++i) {
+      const double temperature = i == looks ? end : from + i * ((to - from) / looks);
+      if (!gives(whole, temperature, raw(temperature))) return false;
+    }
+    return true;
   }
 
   [[noreturn]] void refuse(double value, double temperature) const {

@@ -28,18 +28,20 @@ class Curve {
   // From a file whose first column is `temperature`. Throws InputError.
   static Curve from_table(const std::filesystem::path& file, const ValueRule& rule);
 
-  // At a temperature [K]; of a smooth formula to 1e-11 of its value. From any thread. Throws InputError that names the
-  // temperature at which a formula breaks the rule.
+  // At a temperature [K]; of a formula to 1e-11 of its value, but for a peak narrower than 0.02 K of one that compares,
+  // chooses, rounds or takes the least, the largest or the size. From any thread. Throws InputError that names the temperature
+  // at which a formula breaks the rule.
   double operator()(double temperature) const;
 
   // Of its value over temperature [per K], from any thread. Where a formula bends or jumps, below 0 K and from 5,000 K on it is
   // not known and taken for 0.
   [[nodiscard]] double slope(double temperature) const;
 
-  // From a temperature that is the curve's own, so that differences are what it is for: 0 K of a number and a table, 300 K of a
-  // formula, or the nearest at which that has a value. Exact for a number and a table; of a formula by Gauss's rule of five
-  // points in each kelvin, which is halved where the formula bends or jumps: exact to rounding for polynomials to the ninth
-  // degree, rising wherever the formula is positive. Throws InputError where a formula without a value lies in between.
+  // From a temperature that is the curve's own, so that differences are what it is for: 0 K of a number, a table and a formula
+  // that vanishes there, 300 K of others, or the nearest at which they have a value. Exact for a number and a table; of a
+  // formula by Gauss's rule of five points in each kelvin, which is halved where the formula bends or jumps: exact to rounding
+  // for polynomials to the ninth degree, rising wherever the formula is positive. Throws InputError where a formula without a
+  // value lies in between.
   [[nodiscard]] double integral(double temperature) const;
 
   [[nodiscard]] std::optional<double> constant() const;

@@ -24,7 +24,7 @@ struct Expression::Parser {
   mu::Parser formula;
   std::vector<double> values;  // of the variables; the formula holds their addresses
   std::vector<std::string> used;
-  bool may_jump = false;
+  bool may_jump = false, may_bend = false;
   std::mutex turn;
 };
 
@@ -100,6 +100,11 @@ bool holds_a_jump(const std::string& text) {
   return compares || text.find("sign") != std::string::npos || text.find("rint") != std::string::npos;
 }
 
+bool holds_a_bend(const std::string& text) {
+  return text.find("abs") != std::string::npos || text.find("min") != std::string::npos ||
+         text.find("max") != std::string::npos;
+}
+
 // What solutions of the heat equation are made of, and muParser lacks.
 double error_function(double x) {
   return std::erf(x);
@@ -120,6 +125,7 @@ Expression::Parser::Parser(const std::string& text, const std::vector<std::strin
     formula.SetExpr(text);
     for (const auto& entry : formula.GetUsedVar()) used.push_back(entry.first);
     may_jump = holds_a_jump(text);
+    may_bend = may_jump || holds_a_bend(text);
     formula.Eval();
   } catch (const mu::ParserError& error) {
     throw explain(error, formula, text, variables);
@@ -148,6 +154,10 @@ double Expression::operator()(std::span<const double> values) const {
 
 bool Expression::may_jump() const {
   return parser_->may_jump;
+}
+
+bool Expression::may_bend() const {
+  return parser_->may_bend;
 }
 
 bool Expression::uses(const std::string& variable) const {

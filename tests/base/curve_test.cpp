@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "engine/base/material.h"
@@ -98,6 +99,40 @@ TEST(Curve, TheIntegralOfAFormulaThatJumpsIsExactAndNeverFalls) {
   }
   const Curve kink = formula("1 + abs(T - 400.7)");
   EXPECT_NEAR(kink.integral(402) - kink.integral(0), 402 + 0.5 * (400.7 * 400.7 + 1.3 * 1.3), 1e-7);
+}
+
+// What a formula that bends suddenly does between Gauss's points, which are up to 0.135 K apart.
+TEST(Curve, ANarrowPeakCountsWhereverItLies) {
+  for (const double begin : {0.001, 272.9, 273.0, 273.12, 273.47, 273.97}) {
+    for (const double width : {0.025, 0.05, 0.1, 0.3}) {
+      const Curve peak = formula(fmt::format("T > {} && T < {} ? 3344 : 4", begin, begin + width));
+      EXPECT_NEAR(peak.integral(begin + 2) - peak.integral(std::max(0.0, begin - 2)),
+                  4 * (2 + std::min(2.0, begin)) + 3340 * width, 1e-6)
+          << begin << ", " << width;
+      EXPECT_EQ(peak(begin + 0.5 * width), 3344) << begin << ", " << width;
+      EXPECT_EQ(peak(begin + 1.01 * width), 4) << begin << ", " << width;
+      const Curve hat = formula(fmt::format("4 + 1000*max(0, 1 - abs(T - {})/{})", begin + 0.5 * width, 0.5 * width));
+      EXPECT_NEAR(hat.integral(begin + 2) - hat.integral(begin), 8 + 500 * width, 1e-6) << begin << ", " << width;
+    }
+  }
+}
+
+TEST(Curve, AJumpBesideTheEndOfAKelvinIsWhereItIs) {
+  for (const double jump : {299.99, 299.9999, 300.0, 300.0001, 300.01}) {
+    const Curve curve = formula(fmt::format("T < {} ? 500 : 5", jump));
+    EXPECT_EQ(curve(jump - 1e-5), 500) << jump;
+    EXPECT_EQ(curve(jump + 1e-5), 5) << jump;
+    EXPECT_NEAR(curve.integral(302) - curve.integral(298), 500 * (jump - 298) + 5 * (302 - jump), 1e-8) << jump;
+  }
+}
+
+TEST(Curve, DifferencesNearZeroKelvinAreExactOfAFormulaThatVanishesThere) {
+  const Curve curve = formula("0.0107*T + 7.6e-4*T^3");
+  const auto antiderivative = [](double at) { return 0.5 * 0.0107 * at * at + 0.25 * 7.6e-4 * std::pow(at, 4); };
+  for (const double T : {0.02, 0.7, 4.2, 77.0, 300.0, 1000.0}) {
+    const double exact = antiderivative(1.1 * T) - antiderivative(T);
+    EXPECT_NEAR((curve.integral(1.1 * T) - curve.integral(T)) / exact, 1, 1e-11) << T;
+  }
 }
 
 TEST(Curve, DifferencesAreExactOfAFormulaThatGrowsBeyondAllBoundsTowardsZeroKelvin) {
