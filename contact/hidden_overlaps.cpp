@@ -13,7 +13,7 @@ namespace scree::contact {
 namespace {
 
 constexpr double least_gap = 1e-4;  // of the contact's length
-constexpr double rounding = 1e-9;   // likewise
+constexpr double on_face = 1e-9;    // likewise
 
 // Is a point further than that from the box about these corners?
 template <int dim>
@@ -107,6 +107,7 @@ class Partners {
   // Does a face of a block but `beyond` that touches `face` stand before the other side of the contact?
   [[nodiscard]] bool stands_before(FaceId face, const Point<dim>& point, BlockId beyond, const Contact<dim>& contact) const {
     const double near = contact.gap - least_gap * contact.length;
+    const double on_it = std::max(on_face * contact.length, surface_.rounding);
     const Point<dim>& along = surface_.normals[face];
     for (const FaceId other : partners_.of(face.index())) {
       if (surface_.faces[other].block == beyond) continue;
@@ -117,9 +118,9 @@ class Partners {
       const double way = (corners[0] - point).dot(normal) / slope;
       if (way >= near) continue;
       const Point<dim> hit = point + way * along;
-      if (beside<dim>(corners, hit, rounding * contact.length)) continue;  // most are, and that is soon seen
+      if (beside<dim>(corners, hit, on_it)) continue;  // most are, and that is soon seen
       const double off = (weighted_point<dim>(corners, closest_weights<dim>(corners, hit)) - hit).norm();
-      if (off <= rounding * contact.length) return true;
+      if (off <= on_it) return true;
     }
     return false;
   }

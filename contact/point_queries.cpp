@@ -21,7 +21,7 @@ SCREE_INLINE std::uint64_t bits(unsigned mask) {
 }  // namespace
 
 template <int dim>
-void PointQueries<dim>::measure(double tolerance) {
+void PointQueries<dim>::measure(double tolerance, double rounding) {
   near_ = on_rim_ = apart_ = 0;
   // What is behind the last of them is measured, too, and is of no matter.
   widely([&](auto bytes) SCREE_INLINED {
@@ -30,7 +30,7 @@ void PointQueries<dim>::measure(double tolerance) {
       PointQuery<dim, Some> query;
       const auto* number = asked_.data();
       for_each_number(query, [&](Some& some) SCREE_INLINED { load(some, (*number++).data() + first); });
-      const PointAnswer<dim, Some> answer = contact::measure<dim, Some>(query, tolerance);
+      const PointAnswer<dim, Some> answer = contact::measure<dim, Some>(query, tolerance, rounding);
       for (int corner = 0; corner < dim; ++corner) store(answer.on_target[corner], on_target_[corner].data() + first);
       for (int axis = 0; axis < dim; ++axis) store(answer.offset[axis], offset_[axis].data() + first);
       store(answer.gap, gap_.data() + first);

@@ -26,7 +26,7 @@ class PointQueries {
   }
 
   // Measures them all, see point_touch.h.
-  void measure(double tolerance);
+  void measure(double tolerance, double rounding);
 
   // The semi-spring of a query.
   [[nodiscard]] Point<dim> point(std::size_t i) const {

@@ -46,9 +46,10 @@ SCREE_INLINE MaskOf<Number> looks_at(const Coordinates<dim, Number>& owner_norma
 }
 
 // The semi-spring, or the vertex it stands for, must be within tolerance of the target, the two faces opposed, and the owner's
-// must look at the target. Whether the point is within the target's block is not asked here.
+// must look at the target. Whether the point is within the target's block is not asked here. `rounding`: of the coordinates
+// [m].
 template <int dim, class Number>
-SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& query, double tolerance) {
+SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& query, double tolerance, double rounding) {
   const Number zero{}, within = tolerance * query.length;
   PointAnswer<dim, Number> answer;
   answer.near = below(dot<dim>(query.target_normal, query.owner_normal), zero - least_opposed);
@@ -61,7 +62,7 @@ SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& que
   const auto beside = minus<dim>(query.vertex, weighted_point<dim>(query.corners, nearest));
   answer.near = answer.near & (at_most(distance, within) | at_most(root(dot<dim>(beside, beside)), within));
 
-  answer.apart = below(no_direction * query.length, distance);
+  answer.apart = below(no_direction * query.length, distance) & below(zero + rounding, distance);
   answer.on_rim = closest.on_rim & answer.apart;
   const Number height = dot<dim>(query.target_normal, minus<dim>(query.point, query.corners[0]));
   const Number signed_distance = chosen(below(dot<dim>(query.target_normal, offset), zero), -distance, distance);
@@ -70,8 +71,8 @@ SCREE_INLINE PointAnswer<dim, Number> measure(const PointQuery<dim, Number>& que
   for (int i = 0; i < dim; ++i) direction[i] = chosen(answer.apart, offset[i] / answer.gap, query.target_normal[i]);
   // At the rim the gap's sign is not known yet, but whichever it is the owner's face must look along the offset.
   const Number along = dot<dim>(query.owner_normal, offset);
-  constexpr double rounding = 1 - 1e-9;
-  const auto may_look = at_most(rounding * least_facing * distance, chosen(below(along, zero), -along, along));
+  constexpr double nearly = 1 - 1e-9;
+  const auto may_look = at_most(nearly * least_facing * distance, chosen(below(along, zero), -along, along));
   answer.near = answer.near & ((answer.on_rim & may_look) | looks_at<dim>(query.owner_normal, direction));
   answer.facing = dot<dim>(direction, query.target_normal);
   return answer;

@@ -154,7 +154,7 @@ class SpringSearch {
   }
 
   void touch_asked() {
-    queries_.measure(options_.tolerance);
+    queries_.measure(options_.tolerance, surface_.rounding);
     for (std::size_t k = 0; k < queries_.count(); ++k) {
       const PossibleTouch& possible = possible_[asked_[k].possible];
       const KnownTarget known{possible.plane, possible.whole, possible.inside};

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "engine/base/chunks.h"
+#include "engine/base/coordinate_rounding.h"
 #include "engine/base/parts.h"
 #include "engine/mesh/cells.h"
 
@@ -145,11 +146,24 @@ Point<dim> node_normal(const Surface<dim>& surface, std::size_t first, int verte
   return sum;
 }
 
+template <int dim>
+double rounding_of(const mesh::BlockMesh<dim>& mesh) {
+  std::vector<Aabb<dim>> parts(chunk_count(mesh.nodes.size()));
+  for_chunks(mesh.nodes.size(), [&](Chunk chunk) {
+    Aabb<dim> some;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) some.extend(mesh.nodes[NodeId{i}]);
+    parts[chunk.number] = some;
+  });
+  double largest = 0;
+  for (const Aabb<dim>& part : parts) largest = std::max(largest, coordinate_rounding(part));
+  return largest;
+}
+
 }  // namespace
 
 template <int dim>
 Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
-  Surface<dim> surface{mesh, std::move(faces), {}, {}, {}, {}, {}, {}};
+  Surface<dim> surface{mesh, rounding_of(mesh), std::move(faces), {}, {}, {}, {}, {}, {}};
   const std::size_t count = surface.faces.size();
   surface.normals = FoundTable<FaceId, Point<dim>>(count);
   surface.areas = FoundTable<FaceId, double>(count);

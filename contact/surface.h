@@ -25,6 +25,7 @@ using FoundTable = Table<IdType, Item, VectorWrittenLater<Item>>;
 template <int dim>
 struct Surface {
   const mesh::BlockMesh<dim>& mesh;  // of the caller, who keeps it
+  double rounding;                   // of a difference of two coordinates [m]
   Table<FaceId, mesh::Face<dim>> faces;
   FoundTable<FaceId, Point<dim>> normals;  // unit, outwards
   FoundTable<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)

@@ -71,7 +71,7 @@ std::optional<PointTouch<dim>> touch_face(const Surface<dim>& surface, const Con
   const KnownTarget known{opposite_vertex(surface, pair.target), is_whole(surface.mesh, surface.faces[pair.target].block),
                           false};
   return touch_of<dim>(surface, pair, known, Eigen::Map<const Point<dim>>(query.point.data()),
-                       measure(query, options.tolerance));
+                       measure(query, options.tolerance, surface.rounding));
 }
 
 std::optional<EdgeTouch> touch_edge(const Surface<3>& surface, const ContactOptions& options, FaceId owner, int side,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/coordinate_rounding.h"
 #include "engine/base/nearest.h"
 #include "engine/mesh/cells.h"
 #include "engine/mesh/part_in_box.h"
@@ -39,7 +40,7 @@ class Applier {
       : mesh_(mesh), model_(model), until_(until), moving_(moving), blocks_of_(mesh.bodies.size()) {
     for (const BlockId b : mesh.blocks.ids()) blocks_of_[mesh.blocks[b].body].push_back(b);
     for (const Point<dim>& point : mesh.nodes) everywhere_.extend(point);
-    rounding_ = mesh.nodes.empty() ? 0 : 1e-9 * everywhere_.diagonal().norm();
+    if (!mesh.nodes.empty()) rounding_ = std::max(1e-9 * everywhere_.diagonal().norm(), coordinate_rounding(everywhere_));
   }
 
   void apply(const Boundary& boundary) {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "engine/base/geometry.h"
+#include "engine/base/coordinate_rounding.h"
 #include "engine/mesh/cells.h"
 #include "engine/output/cell_reading.h"
 
@@ -14,7 +14,8 @@ namespace scree::output {
 
 namespace {
 
-// A point on an element's boundary may miss it by the rounding of its coordinates; this much of an edge counts as on it.
+// A point on an element's boundary may miss it by the rounding of its coordinates; at least this much of an edge counts as on
+// it.
 constexpr double tolerance = 1e-9;
 
 template <int dim>
@@ -82,7 +83,7 @@ Nearest<dim> find_nearest(const mesh::BlockMesh<dim>& mesh, const Point<dim>& po
     const double distance = (interpolate<dim>(corners, weights) - point).norm();
     if (distance >= nearest.distance) continue;
     nearest = {element, weights, distance};
-    if (distance <= tolerance * box.diagonal().norm()) {
+    if (distance <= std::max(tolerance * box.diagonal().norm(), coordinate_rounding(box))) {
       nearest.distance = 0;
       return nearest;
     }
@@ -92,7 +93,7 @@ Nearest<dim> find_nearest(const mesh::BlockMesh<dim>& mesh, const Point<dim>& po
 
 template <int dim>
 std::string coordinates(const Point<dim>& point) {
-  return fmt::format("[{:.6g}]", fmt::join(point.begin(), point.end(), ", "));
+  return fmt::format("[{}]", fmt::join(point.begin(), point.end(), ", "));
 }
 
 // The next larger number of two digits: a reach that is enough and easy to write.

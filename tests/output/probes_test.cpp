@@ -52,6 +52,29 @@ TEST(Probes, ALinearFieldIsReadExactlyInTheBlockThatHoldsTheProbe) {
   EXPECT_NEAR(value_at(probes[1], linear_field(mesh)), 3 + 2.1 + 0.1 - 3.0, 1e-14);
 }
 
+// In metres of a national grid, where coordinates are a nanometre apart.
+TEST(Probes, FarFromTheOriginAPointInABlockIsInIt) {
+  mesh::BlockMesh<3> mesh;
+  mesh.bodies.push_back({"rock", MaterialId{0}, false, {}});
+  const Point<3> site(412345.7, 5412345.8, 123.5);
+  auto corners = unit_tet();
+  for (auto& corner : corners) corner = site + 0.05 * corner;
+  add_block<3>(mesh, BodyId{0}, corners);
+  for (const double part : {0.0, 0.1, 0.3, 1.0 / 3}) {
+    const Eigen::Vector3d point = site + 0.05 * Point<3>::Constant(part);
+    EXPECT_EQ(locate_probes(mesh, {{"p", point}})[0].moved, 0) << part;
+  }
+}
+
+// The message names the place that was asked for, and a reach that reaches.
+TEST(Probes, WhatIsSuggestedForAPointInAVoidWorks) {
+  const auto mesh = two_tets();
+  const Eigen::Vector3d beside(-0.123456789, 0.2000001, 0.3000002);
+  const std::string text = message(mesh, {"p", beside});
+  EXPECT_THAT(text, HasSubstr("{point: [-0.123456789, 0.2000001, 0.3000002], reach: 0.13 m}"));
+  EXPECT_NEAR(locate_probes(mesh, {{"p", beside, 0.13}})[0].moved, 0.123456789, 1e-12);
+}
+
 TEST(Probes, WorkInTwoDimensionsAndIgnoreZ) {
   mesh::BlockMesh<2> mesh;
   mesh.bodies.push_back({"bar", MaterialId{0}, false, {}});
