@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/base/coordinate_rounding.h"
 #include "engine/mesh/cells.h"
 #include "engine/mesh/part_in_box.h"
 #include "thermal/block_conduction.h"
@@ -37,7 +38,11 @@ class Sample {
  public:
   Sample(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials, const HeatModel& model,
          const Aabb<dim>& window)
-      : mesh_(mesh), materials_(materials), model_(model), window_(window), rounding_(1e-9 * window.diagonal().norm()) {
+      : mesh_(mesh),
+        materials_(materials),
+        model_(model),
+        window_(window),
+        rounding_(std::max(1e-9 * window.diagonal().norm(), coordinate_rounding(window))) {
     model_.fixed_hold.clear();
     model_.holds.clear();
     model_.loads.clear();
@@ -139,17 +144,41 @@ class Sample {
     return found;
   }
 
-  // Mean over the window of the flux, voids at 0 [W/m2].
-  [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
+  // Integral of the flux over parts of elements [W m].
+  [[nodiscard]] Point<dim> flux_over(const std::vector<PartInside<dim>>& parts, const Eigen::VectorXd& temperature) const {
     Point<dim> sum = Point<dim>::Zero();
-    for (const PartInside<dim>& part : inside_) {
+    for (const PartInside<dim>& part : parts) {
       const auto along = gradient<dim>([&](int corner, int axis) { return mesh_.nodes[part.nodes[corner]][axis]; },
                                        [&](int corner) { return temperature[model_.rows[part.nodes[corner]].value()]; });
       const Conductivity& conductivity = *material_of(part).conductivity;
       const Tensor tensor = *conductivity.value.constant() * conductivity_ratios<dim>(conductivity, mesh_.blocks[part.block]);
       sum += part.volume * flux<dim>(tensor, Point<dim>(along.data()));
     }
-    return sum / window_.volume();
+    return sum;
+  }
+
+  // Mean over the window, voids at 0 [W/m2].
+  [[nodiscard]] Point<dim> mean_flux(const Eigen::VectorXd& temperature) const {
+    return flux_over(inside_, temperature) / window_.volume();
+  }
+
+  // What lies between the planes of two sides, beside the window, too.
+  [[nodiscard]] std::vector<PartInside<dim>> between_planes(int axis) const {
+    Aabb<dim> layer = window_;
+    for (const Point<dim>& node : mesh_.nodes) layer.extend(node);
+    layer.min()[axis] = window_.min()[axis];
+    layer.max()[axis] = window_.max()[axis];
+    return parts_in(mesh_, layer);
+  }
+
+  // Against the axis into the nodes that are held on and below its low side [W].
+  [[nodiscard]] double flow_into_low_side(const Eigen::VectorXd& temperature, int axis) const {
+    const Eigen::VectorXd coming = imbalance(temperature, Eigen::VectorXd::Zero(temperature.size()));
+    double sum = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      if (above_low(rows_[row], axis) <= rounding_) sum += coming[static_cast<Eigen::Index>(row)];
+    }
+    return sum;
   }
 
   // Of an element that a side of the window cuts: of each corner the integral over the cut of its linear function [m2].
@@ -220,7 +249,13 @@ class Sample {
   [[nodiscard]] double between_plates(int axis) {
     hold([&](NodeId node) { return beyond(node, axis); });
     const Eigen::VectorXd temperature = solve(coordinates(axis), Eigen::VectorXd::Zero(model_.capacity.size())).temperature;
-    return -mean_flux(temperature)[axis] / mean_gradient(temperature, axis, axis);
+    // The flux in elements that a side cuts is one between nodes that are held, and not what passes on. Their flow is; the
+    // fluxes tell the window's share of it.
+    const double of_all = flux_over(between_planes(axis), temperature)[axis];
+    if (of_all == 0) return 0;
+    const double share = flux_over(inside_, temperature)[axis] / of_all;
+    const double area = window_.volume() / window_.sizes()[axis];
+    return share * flow_into_low_side(temperature, axis) / area / mean_gradient(temperature, axis, axis);
   }
 
   struct Side {

@@ -122,6 +122,31 @@ TEST(EffectiveConductivity, OfABondOfBricksComesNearInAWindowThatCutsElements) {
   EXPECT_LT((along(2) - fine).cwiseAbs().maxCoeff(), 0.01 * k) << along(2).transpose() << " beside " << fine.transpose();
 }
 
+// Metal, felt and metal in a row, between sides that cut elements of the metal: the flux in these is one between nodes that are
+// held, and a third too much with it.
+TEST(EffectiveConductivity, ALayerThatInsulatesDoesSoInAWindowThatCutsElementsBesideIt) {
+  Table<MaterialId, Material> materials({test::rock(), test::rock()});
+  materials[MaterialId{0}].conductivity = 20.0;
+  materials[MaterialId{1}].conductivity = 0.2;
+  const double series = 0.36 / (0.13 / 20 + 0.1 / 0.2 + 0.13 / 20 + 2.0 / 1000);
+  for (const int cells : {3, 6, 12}) {
+    std::vector<test::Slab<2>> layers(3, test::bar<2>(0.3, cells, cells, 0.3));
+    layers[1] = test::bar<2>(0.1, 2, 6, 0.3);
+    layers[1].low[0] = 0.3;
+    layers[1].material = MaterialId{1};
+    layers[2].low[0] = 0.4;
+    const auto mesh = test::slab_mesh<2>(layers);
+    HeatOptions options = test::options_for(mesh, 300);
+    options.joint.law = JointConductance{1000};
+    const auto model = make_heat_model(mesh, materials, contact::find_contacts(mesh, {}), options);
+    for (const double high : {0.3, 0.17}) {  // and in a window beside which heat passes, too
+      const Aabb<2> window{Point<2>(0.17, 0), Point<2>(0.53, high)};
+      EXPECT_NEAR(effective_conductivity<2>(mesh, materials, model, window).along[0] / series, 1, 0.03)
+          << cells << ", " << high;
+    }
+  }
+}
+
 // What a joint of 1e9 times an element's conductance loses in rounding is put right; where that cannot be done, no lower bound.
 TYPED_TEST(Homogenised, StiffJointsLeaveALowerBoundThatIsOneOrNone) {
   constexpr int dim = TypeParam::value;
