@@ -1,6 +1,7 @@
 #include "thermal/drive_defect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "thermal/evaluated.h"
@@ -10,11 +11,16 @@ namespace scree::thermal {
 
 namespace {
 
-// Enough to know what is missed of a jump to an eighth.
+// The midpoint rule with a correction for the slopes at both ends, by parabolas: exact for cubics.
+constexpr int many = 16;
 std::vector<Look> many_looks() {
-  constexpr int looks = 16;
   std::vector<Look> at;
-  for (int i = 0; i < looks; ++i) at.push_back({(i + 0.5) / looks, 1.0 / looks});
+  for (int i = 0; i < many; ++i) at.push_back({(i + 0.5) / many, 1.0 / many});
+  constexpr std::array correction{2.0 / 24, -3.0 / 24, 1.0 / 24};
+  for (std::size_t i = 0; i < correction.size(); ++i) {
+    at[i].weight += correction[i] / many;
+    at[many - 1 - i].weight += correction[i] / many;
+  }
   return at;
 }
 
@@ -26,25 +32,40 @@ std::vector<Look> gauss_looks() {
 class Defect {
  public:
   Defect(const std::vector<Look>& quadrature, const LookedAt& step)
-      : quadrature_(quadrature), step_(step), integral_(step.smooth ? gauss_looks() : many_looks()) {}
+      : quadrature_(quadrature), step_(step), of_places_(step.smooth ? gauss_looks() : many_looks()), of_one_(many_looks()) {}
 
-  // Of f(t): the quadrature's less the integral.
+  // Of f(t): the quadrature's less the integral. What is the same everywhere costs little, however often it is looked at.
   template <class Value>
-  double operator()(const Value& f) const {
-    return step_.length * (sum(quadrature_, f) - sum(integral_, f));
+  double operator()(bool varies_in_place, const Value& f) const {
+    const std::vector<Look>& looks = varies_in_place ? of_places_ : of_one_;
+    std::array<double, many> values;
+    double integral = 0;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      values[i] = f(time(looks[i]));
+      integral += looks[i].weight * values[i];
+    }
+    double defect = -integral;
+    for (const Look& look : quadrature_) defect += look.weight * f(time(look));
+    if (!varies_in_place) defect += std::copysign(doubt(f(step_.begin), values, f(step_.begin + step_.length)), defect);
+    return step_.length * defect;
   }
 
  private:
-  template <class Value>
-  [[nodiscard]] double sum(const std::vector<Look>& looks, const Value& f) const {
-    double sum = 0;
-    for (const Look& look : looks) sum += look.weight * f(step_.begin + look.part * step_.length);
-    return sum;
+  [[nodiscard]] double time(const Look& look) const { return step_.begin + look.part * step_.length; }
+
+  // What jumps or rises steeply may do so by half of the way between two looks earlier or later. `begin`, `end`: at the step's.
+  static double doubt(double begin, const std::array<double, many>& values, double end) {
+    double largest = std::max(std::abs(begin - 1.5 * values[0] + 0.5 * values[1]),
+                              std::abs(end - 1.5 * values[many - 1] + 0.5 * values[many - 2]));
+    for (std::size_t i = 1; i + 1 < many; ++i) {
+      largest = std::max(largest, std::abs(values[i - 1] - 2 * values[i] + values[i + 1]));
+    }
+    return 0.5 * largest / many;
   }
 
   const std::vector<Look>& quadrature_;
   const LookedAt& step_;
-  std::vector<Look> integral_;
+  std::vector<Look> of_places_, of_one_;  // for the integral
 };
 
 // Heat that is missed [J].
@@ -83,7 +104,7 @@ void add(const Load& load, const Defect& defect, MissedHeat& heat) {
   if (!varies_in_time(load)) return;
   const bool varies_in_place = load.density.varies_in_place();
   Evaluated missed(varies_in_place, [&](const Eigen::Vector3d& place) {
-    return defect([&](double time) { return load.density(place, time); });
+    return defect(varies_in_place, [&](double time) { return load.density(place, time); });
   });
   heat.add(load.on, varies_in_place, [&](std::size_t i) { return missed(load.on.places.col(static_cast<Eigen::Index>(i))); });
 }
@@ -91,8 +112,9 @@ void add(const Load& load, const Defect& defect, MissedHeat& heat) {
 // By how much more held temperatures count, in the order of the fixed nodes [K s].
 Eigen::VectorXd missed_of_held(const HeatModel& model, const Defect& defect) {
   const auto missed_by = [&](const Hold& hold) {
-    return Evaluated(hold.temperature.varies_in_place(), [&](const Eigen::Vector3d& place) {
-      return defect([&](double time) { return hold.temperature(place, time); });
+    const bool varies_in_place = hold.temperature.varies_in_place();
+    return Evaluated(varies_in_place, [&, varies_in_place](const Eigen::Vector3d& place) {
+      return defect(varies_in_place, [&](double time) { return hold.temperature(place, time); });
     });
   };
   std::vector<decltype(missed_by(model.holds.front()))> of_holds;
@@ -117,10 +139,11 @@ void add(const Exchange& exchange, const Defect& defect, const Eigen::VectorXd& 
     return exchange.law == Exchange::Law::convection ? t : stefan_boltzmann * t * t * t * std::abs(t);
   };
   Evaluated incoming(varies_in_place, [&](const Eigen::Vector3d& place) {
-    return defect([&](double time) { return coefficient(place, time) * potential(surroundings(place, time)); });
+    return defect(varies_in_place,
+                  [&](double time) { return coefficient(place, time) * potential(surroundings(place, time)); });
   });
   Evaluated outgoing(varies_in_place, [&](const Eigen::Vector3d& place) {
-    return defect([&](double time) { return coefficient(place, time); });
+    return defect(varies_in_place, [&](double time) { return coefficient(place, time); });
   });
   heat.add(exchange.on, varies_in_place, [&](std::size_t i) {
     const Eigen::Vector3d place = exchange.on.places.col(static_cast<Eigen::Index>(i));

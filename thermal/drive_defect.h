@@ -30,9 +30,9 @@ struct DriveDefect {
 struct LookedAt {
   double begin;   // [s]
   double length;  // [s]
-  // Nothing bends or jumps within it. Then there are three looks for the integral, those of Gauss's rule, which is exact to
-  // fifth order, else 16. And what misses less than `negligible` [K] at 16 places of a formula of place is not asked at its
-  // others.
+  // Nothing is known to bend or jump within it. Then there are three looks for the integral of a formula of place, those of
+  // Gauss's rule, which is exact to fifth order, else 16. And what misses less than `negligible` [K] at 16 places of a formula
+  // of place is not asked at its others.
   bool smooth;
   double negligible;
 };

@@ -24,9 +24,11 @@
 // other way and by some tenth of it: T = T0 + C^-1 (I + B C^-1) B (T_held - T0) at t = 0+. It is this that makes
 // a sudden start as exact as the rest; nodes beside it leave the range of the given temperatures for the first moments.
 //
-// The order is four where the cells of a block are equal boxes and the axes of its conductivity along theirs. Cells of other
-// shapes, convection (of order two where the surface is), and joints lower it to two. The heat that passes a hold is of order
-// two in any case, since contents are sums of C T.
+// The order is four where the cells of a block are equal boxes and the axes of its conductivity along theirs, and no heat but
+// from holds and sources enters. Cells of other shapes, convection, a flux (of order two where the surface is; what it gives
+// the cells beside it is off by rho c h^2/12 times the slope that it makes, which an insulated body keeps), joints, and a
+// source or an initial temperature that has a slope across an insulated side lower it to two. The heat that passes a hold is of
+// order two in any case, since contents are sums of C T.
 #pragma once
 
 #include <optional>

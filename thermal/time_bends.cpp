@@ -18,9 +18,11 @@ constexpr double standing_still = 1e-6;
 constexpr double rounding = 1e-12;
 
 // What rises by less than this share of the range from one look to the next is not asked whether it jumps; a jump is nearly
-// all of that rise.
+// all of that rise. A smaller one is seen in what rises by more than twice as much as before and after, and is some of it.
 constexpr double least_jump = 0.01;
 constexpr double nearly_all = 0.9;
+constexpr double sudden = 2;
+constexpr double some = 0.4;
 // Roundings that a jump's two times are set apart by: the times of steps beside it are sums.
 constexpr double apart = 16 * std::numeric_limits<double>::epsilon();
 
@@ -34,11 +36,8 @@ class Looks {
 
   // Where it begins or ends to rise, to fall or to stand still, but for the jumps that are in steps beside.
   [[nodiscard]] std::vector<double> bends(const std::vector<Jump>& jumps) const {
-    const double still = std::max(standing_still * range(), rounding * values_.abs().maxCoeff());
-    const auto way = [&](int i) {
-      const double rise = values_[i + 1] - values_[i];
-      return std::abs(rise) <= still ? 0 : (rise > 0 ? 1 : -1);
-    };
+    const double none = still();
+    const auto way = [&](int i) { return rise(i) <= none ? 0 : (values_[i + 1] > values_[i] ? 1 : -1); };
     const auto leaps = [&](int i) {
       return std::any_of(jumps.begin(), jumps.end(),
                          [&](const Jump& jump) { return jump.before < time(i + 1) && jump.after > time(i); });
@@ -53,8 +52,9 @@ class Looks {
   [[nodiscard]] std::vector<Jump> jumps() const {
     std::vector<Jump> jumps;
     for (int i = 0; i < steps_; ++i) {
-      if (std::abs(values_[i + 1] - values_[i]) <= least_jump * range()) continue;
-      if (const std::optional<Jump> jump = jump_after(i)) jumps.push_back(*jump);
+      const bool small = rise(i) <= least_jump * range();
+      if (small && !is_sudden(i)) continue;
+      if (const std::optional<Jump> jump = jump_after(i, small ? some : nearly_all)) jumps.push_back(*jump);
     }
     if (const std::optional<Jump> jump = jump_at_end()) jumps.push_back(*jump);
     return jumps;
@@ -63,12 +63,20 @@ class Looks {
  private:
   [[nodiscard]] double time(int i) const { return i == steps_ ? end_ : begin_ + (end_ - begin_) * i / steps_; }
   [[nodiscard]] double range() const { return values_.maxCoeff() - values_.minCoeff(); }
+  [[nodiscard]] double still() const { return std::max(standing_still * range(), rounding * values_.abs().maxCoeff()); }
 
-  // Between a look and the next, by halving: nothing if the rise is shared by both halves.
-  [[nodiscard]] std::optional<Jump> jump_after(int i) const {
+  // From a look to the next, up or down.
+  [[nodiscard]] double rise(int i) const { return std::abs(values_[i + 1] - values_[i]); }
+  [[nodiscard]] bool is_sudden(int i) const {
+    const double beside = std::max(i > 0 ? rise(i - 1) : 0, i + 1 < steps_ ? rise(i + 1) : 0);
+    return function_.may_jump() && rise(i) > sudden * beside + still();
+  }
+
+  // Between a look and the next, by halving: nothing if less than a share of the rise is left.
+  [[nodiscard]] std::optional<Jump> jump_after(int i, double share) const {
     double low = time(i), high = time(i + 1);
     double under = values_[i], over = values_[i + 1];
-    const double least = nearly_all * std::abs(over - under);
+    const double least = share * std::abs(over - under);
     for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
       const double value = function_(place_, middle);
       const bool below = std::abs(value - under) > std::abs(over - value);

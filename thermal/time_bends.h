@@ -14,9 +14,10 @@ struct Jump {
 // Between two times, as a rule those of two outputs. A table is known. A formula is looked at, at 1,024 steps in time of one
 // that is the same everywhere, else at 64 steps at up to 16 of its places; it bends where it begins or ends to rise, to fall
 // or to stand still. A formula that is the same everywhere and jumps by a hundredth of its range or more from one look to the
-// next does so at a time that is known. One that may jump at another time at each place is taken to bend at all times: a front
-// or a spot that moves passes between the places that are looked at. In fourth order a jump reaches nodes beside those that are
-// held: there it is two bends. Throws InputError for a value that breaks its rule there.
+// next, or by as much as it rises by before and after, does so at a time that is known. One that may jump at another time at
+// each place is taken to bend at all times: a front or a spot that moves passes between the places that are looked at. In
+// fourth order a jump reaches nodes beside those that are held: there it is two bends. Throws InputError for a value that
+// breaks its rule there.
 class TimeBends {
  public:
   // Refers to the model.

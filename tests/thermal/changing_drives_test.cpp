@@ -63,7 +63,7 @@ TEST(ChangingDrives, ThePulseThatAFixedStepLeapsOverIsInItsError) {
   EXPECT_EQ(leapt.ledger.by_applied[0], 0) << "the step is short enough, and the test sees nothing";
   EXPECT_GT(missed, 100);
   EXPECT_GT(leapt.time_error, 0.9 * missed);
-  EXPECT_LT(leapt.time_error, 1.2 * missed);
+  EXPECT_LT(leapt.time_error, 1.5 * missed) << "when its sides are is known to half of the way between two looks";
 }
 
 TEST(ChangingDrives, TheErrorOfFixedStepsSeesSurroundingsAndHeldTemperaturesBetweenTheirEnds) {

@@ -43,6 +43,8 @@ TEST(TimeBends, JumpsAreFoundToRounding) {
   expect_jumps({"t <= 123.456 ? 1 : 2"}, {123.456});
   expect_jumps({"5*(t > 100)*(t < 900.5) + sin(t/50)"}, {100, 900.5});
   expect_jumps({"(t > 300)*(t - 300) + 20*(t > 500)"}, {500});
+  expect_jumps({"t + 9*(t > 510.3) + 2.5*(t > 800.1)"}, {510.3, 800.1});
+  expect_jumps({"sin(t/50) + (t > 2000)"}, {});
 }
 
 TEST(TimeBends, AJumpAtTheEndBelongsToTheTimeBeforeIt) {
