@@ -64,7 +64,8 @@ void add_scene(CLI::App& command, Arguments& arguments) {
   command.add_option("scene", arguments.scene, "the scene, a YAML file")->required();
   command.add_option("--set", arguments.overrides, "replace a key of the scene: --set heat.until=\"2 h\"")
       ->type_name("KEY=VALUE")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 std::string default_directory(const std::string& scene) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <clocale>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "engine/base/threads.h"
 
@@ -90,14 +93,20 @@ void add_faces(int dimension, int entity, const std::unordered_map<std::size_t, 
 }
 
 // The physical groups of curves and faces; one without a name is called by its number.
+// By their names, or their numbers where they have none or that of an earlier one.
 std::vector<RawSurface> physical_groups(const std::unordered_map<std::size_t, std::size_t>& index) {
   std::vector<RawSurface> surfaces;
+  std::set<std::pair<int, std::string>> names;  // by dimension
   for (const gmsh::PhysicalGroup& group : gmsh::physical_groups()) {
     if (group.dimension != 1 && group.dimension != 2) continue;
     RawSurface surface;
     surface.dimension = group.dimension;
     surface.name = gmsh::physical_name(group);
-    if (surface.name.empty()) surface.name = std::to_string(group.tag);
+    const auto is_taken = [&](const std::string& name) { return !names.insert({group.dimension, name}).second; };
+    if (surface.name.empty() || is_taken(surface.name)) {
+      surface.name = std::to_string(group.tag);
+      if (is_taken(surface.name)) throw std::runtime_error("two physical groups have the name " + surface.name);
+    }
     for (const int entity : gmsh::entities_of(group)) add_faces(group.dimension, entity, index, surface);
     surfaces.push_back(std::move(surface));
   }

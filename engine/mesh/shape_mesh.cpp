@@ -153,12 +153,43 @@ double extent(const Cylinder& cylinder) {
   return std::max(cylinder.diameter, cylinder.height);
 }
 
+template <int dim>
+double thickness(const Box& box) {
+  return box.size.head<dim>().minCoeff();
+}
+template <int dim>
+double thickness(const Sphere& sphere) {
+  return sphere.diameter;
+}
+template <int dim>
+double thickness(const Cylinder& cylinder) {
+  return std::min(cylinder.diameter, cylinder.height);
+}
+
+// OpenCASCADE takes 1e-7 m for nothing, and may end the program: what comes near it is drawn in units of its own size [m].
+template <int dim, class ShapeType>
+double drawing_unit(const ShapeType& shape) {
+  constexpr double small = 1e-6;
+  return thickness<dim>(shape) < small ? extent<dim>(shape) : 1;
+}
+
+Box in_units(const Box& box, double unit) {
+  return {box.size / unit};
+}
+Sphere in_units(const Sphere& sphere, double unit) {
+  return {sphere.diameter / unit};
+}
+Cylinder in_units(const Cylinder& cylinder, double unit) {
+  return {cylinder.diameter / unit, cylinder.height / unit};
+}
+
 // Triangles or tetrahedra, or quadrilaterals if the body asks for them.
 template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   expect_reasonable(body, expected_elements<dim>(shape, body.mesh_size));
   // Far beyond the shape, a size spoils the coarsest mesh instead of making it coarser.
   const double size = std::min(body.mesh_size, extent<dim>(shape));
+  const double unit = drawing_unit<dim>(shape);
   // A thin plate's two sides come out alike from the frontal mesher, and nodes straight above each other make slivers, which
   // no optimiser can remove from between two faces. Then the next mesher is asked.
   SimplexMesh<dim> best;
@@ -167,12 +198,15 @@ SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
     RawMesh raw;
     with_gmsh([&] {
       gmsh::add_model(body.name);
-      draw<dim>(shape);
+      draw<dim>(in_units(shape, unit));
       if (body.cells) only_quadrilaterals();
-      generate(dim, size, faces);
+      generate(dim, size / unit, faces);
       raw = model_mesh();
     });
-    for (Eigen::Vector3d& point : raw.points) to_surface(shape, point);
+    for (Eigen::Vector3d& point : raw.points) {
+      point *= unit;
+      to_surface(shape, point);
+    }
     split_cells<dim>(body, raw);
     const SimplexMesh<dim> made = whole_of<dim>(raw);
     const double quality = worst_quality(made);

@@ -184,6 +184,16 @@ TEST(MakeBlocks, ACopyIsTheShapeMovedByItsPose) {
   EXPECT_EQ(moved.blocks[BlockId{0}].orientation.coeffs(), pose.rotation.coeffs());
 }
 
+// OpenCASCADE takes 1e-7 m for nothing.
+TEST(MakeBlocks, ThinFilmsAndGrainsOfDustAreMeshed) {
+  const double film = 1e-8, wide = 1e-4, dust = 1e-7;
+  EXPECT_NEAR(total_volume(make_blocks<3>({body_of(Cylinder{dust, film}, 1)})) / (pi / 4 * dust * dust * film), 0.9, 0.1);
+  EXPECT_NEAR(total_volume(make_blocks<3>({body_of(Cylinder{wide, dust}, wide / 4)})) / (pi / 4 * wide * wide * dust), 0.97,
+              0.03);
+  EXPECT_NEAR(total_volume(make_blocks<3>({body_of(box_of(wide, wide, dust), wide)})) / (wide * wide * dust), 1, 1e-12);
+  EXPECT_NEAR(total_volume(make_blocks<2>({body_of(box_of(wide, film, 0), wide)})) / (wide * film), 1, 1e-12);
+}
+
 TEST(MakeBlocks, ACylinderInTwoDimensionsIsRefused) {
   EXPECT_EQ(input_error([] {
               make_blocks<2>({body_of(Cylinder{1, 1}, 0.5)});

@@ -1,7 +1,9 @@
 #include "engine/mesh/surfaces.h"
 
+#include <fstream>
 #include <numbers>
 #include <random>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -135,6 +137,20 @@ TEST_F(SurfacesOfFiles, PhysicalGroupsAreTheSurfacesOfAMeshFile) {
   const auto plate = make_blocks<2>({body_with("plate.msh", "")});
   EXPECT_THAT(surface_names(plate, BodyId{0}), ElementsAre("ground", "7"));
   EXPECT_NEAR(area_of(plate, BodyId{0}, "7"), 1, 1e-13);
+}
+
+TEST_F(SurfacesOfFiles, APhysicalGroupWithTheNameOfAnEarlierOneGoesByItsNumber) {
+  const auto file = directory_ / "box.msh";
+  write_box_with_groups(file, 3);
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::string twice = text.str();
+  const std::string once = "1\n2 3 \"ground\"\n";
+  ASSERT_NE(twice.find(once), std::string::npos);
+  twice.replace(twice.find(once), once.size(), "2\n2 3 \"ground\"\n2 7 \"ground\"\n");
+  const auto box = make_blocks<3>({body_with("twice.msh", twice)});
+  EXPECT_THAT(surface_names(box, BodyId{0}), ElementsAre("ground", "7"));
+  EXPECT_NEAR(area_of(box, BodyId{0}, "7"), 2, 1e-13);
 }
 
 // Tetrahedra apart, numbered corner by corner through all of them, whose lowest faces are one surface. A surface may name what

@@ -183,6 +183,9 @@ TEST(SceneErrors, BlocksAreLumpedByKnownModelsInBodiesOfTheScene) {
             "heat.blocks.model to auto");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks=auto"}), "--set heat.blocks: heat.blocks is auto (must be a map of keys)")
       << "and nothing of what is in it";
+  EXPECT_EQ(wrong_with(whole_scene, {"heat=yes", "materials.ore.conductivity={expression: 1000/T}"}),
+            "--set heat: heat is yes (must be a map of keys)")
+      << "likewise";
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={model: auto, largest_biot: -0.1}"}),
             "--set heat.blocks: heat.blocks.largest_biot is -0.1 (must be not negative). Did you mean 0.1?");
   EXPECT_EQ(wrong_with(whole_scene, {"heat.blocks={bodies: {blok: lumped}}"}),

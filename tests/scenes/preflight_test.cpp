@@ -105,11 +105,12 @@ TEST(Preflight, ARunDoesNotWriteOverWhatItReads) {
   std::ofstream(folder / "scene.yaml") << still;
   EXPECT_THAT(refusal_of_file(folder / "scene.yaml", folder), HasSubstr("holds a scene.yaml that no run has left"));
   EXPECT_EQ(contents(folder / "scene.yaml"), still);
-  for (const char* own : {"probes.csv", "report.html", "heat.png", "contacts.pvd"}) {
-    const auto place = fresh_directory(std::string("own_") + own);
-    std::ofstream(place / own) << "somebody's";
-    EXPECT_THAT(refusal_of_file(folder / "scene.yaml", place), HasSubstr(std::string("holds a ") + own)) << own;
-    EXPECT_EQ(contents(place / own), "somebody's");
+  for (const std::string own : {"probes.csv", "report.html", "heat.png", "contacts.pvd", "heat/heat_000042.vtu"}) {
+    const auto place = fresh_directory("own_files"), file = place / own;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << "somebody's";
+    EXPECT_THAT(refusal_of_file(folder / "scene.yaml", place), HasSubstr("holds a " + file.filename().string())) << own;
+    EXPECT_EQ(contents(file), "somebody's");
   }
   const auto out = folder / "out";
   ASSERT_EQ(run_file(folder / "scene.yaml", out).exit_status, 0);

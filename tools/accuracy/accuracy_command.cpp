@@ -187,7 +187,10 @@ void conclude(const Study& study, const fs::path& directory, std::size_t finest_
 
 void declare(CLI::App& command, Arguments& arguments) {
   command.add_option("scene", arguments.scene, "the scene, a YAML file with heat and probes")->required();
-  command.add_option("--set", arguments.overrides, "replace a key of the scene")->type_name("KEY=VALUE")->take_all();
+  command.add_option("--set", arguments.overrides, "replace a key of the scene")
+      ->type_name("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   command.add_option("--out", arguments.directory, "where the results go (default: out/, the scene's name and -accuracy)");
   command.add_option("--mesh", arguments.ladder.mesh_factors, "factors of every mesh_size (default: 2 1 0.5)")
       ->check(CLI::PositiveNumber);

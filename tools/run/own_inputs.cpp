@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <variant>
@@ -52,6 +53,16 @@ std::vector<fs::path> results(const RunFiles& files) {
   return all;
 }
 
+// The first frame of a series, whatever its number, if there is one.
+std::optional<fs::path> frame_of(const RunFiles& files, const std::string& name) {
+  std::error_code not_there;
+  for (const auto& entry : fs::directory_iterator(files.directory / name, not_there)) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with(name + "_") && file.ends_with(".vtu")) return entry.path();
+  }
+  return std::nullopt;
+}
+
 [[noreturn]] void refuse(const RunFiles& files, const std::string& rule, const std::string& suggestion) {
   Problem problem;
   problem.key = "--out";
@@ -72,10 +83,15 @@ void refuse_own_inputs(const Scene& scene, const RunFiles& files) {
   }
   std::error_code ignored;
   if (fs::exists(files.summary(), ignored)) return;
-  for (const fs::path& file : results(files)) {
-    if (!fs::exists(file, ignored)) continue;
+  const auto refuse_file = [&](const fs::path& file) {
     refuse(files, fmt::format("holds a {} that no run has left, and a run removes or replaces it", file.filename().string()),
            "Choose another --out, or another name for that file");
+  };
+  for (const fs::path& file : results(files)) {
+    if (fs::exists(file, ignored)) refuse_file(file);
+  }
+  for (const char* name : series) {
+    if (const auto frame = frame_of(files, name)) refuse_file(*frame);
   }
 }
 

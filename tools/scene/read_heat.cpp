@@ -225,7 +225,7 @@ thermal::TimeOptions read_time(const Checked& heat, const Checked& output) {
 }
 
 thermal::SpaceOrder read_space_order(const Checked& heat, const thermal::HeatOptions& options, Problems& problems) {
-  if (options.time.steady || heat.at("space_order").text == "2") return thermal::SpaceOrder::second;
+  if (options.time.steady || heat.at("space_order").text != "4") return thermal::SpaceOrder::second;
   const Checked& order = heat.at("space_order");
   const auto refuse = [&](const char* rule) { problems.push_back(order.problem("4", rule, "Set space_order: 2")); };
   if (!options.blocks.all_meshed()) refuse("must have meshed blocks");
