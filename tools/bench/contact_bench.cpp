@@ -34,10 +34,12 @@ BENCHMARK_CAPTURE(search, settled, settled_piles, contact::Model::semi_spring)->
 BENCHMARK_CAPTURE(search, turned, turned_lattice, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, closed, closed_lattice, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, jointed_cubes, jointed_cubes, contact::Model::semi_spring)->Apply(sizes_and_threads);
+BENCHMARK_CAPTURE(search, jointed_eights, jointed_eights, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, settled_cubes, settled_cubes, contact::Model::semi_spring)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, settled_overlap, settled_piles, contact::Model::overlap)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, closed_overlap, closed_lattice, contact::Model::overlap)->Apply(sizes_and_threads);
 BENCHMARK_CAPTURE(search, jointed_cubes_overlap, jointed_cubes, contact::Model::overlap)->Apply(sizes_and_threads);
+BENCHMARK_CAPTURE(search, jointed_eights_overlap, jointed_eights, contact::Model::overlap)->Apply(sizes_and_threads);
 
 }  // namespace
 }  // namespace scree::bench

@@ -127,6 +127,19 @@ void append(mesh::BlockMesh<3>& mesh, const mesh::BlockMesh<3>& copy, const Vect
   }
 }
 
+const mesh::BlockMesh<3>& meshed_cube() {
+  static const mesh::BlockMesh<3> cube = mesh::make_blocks<3>({box("cube", {0.2, 0.2, 0.2}, {0, 0, 0}, meshed_cube_size)});
+  return cube;
+}
+
+// So many of them each way.
+mesh::BlockMesh<3> lattice_of_cubes(std::size_t side) {
+  mesh::BlockMesh<3> mesh;
+  mesh.bodies = meshed_cube().bodies;
+  for (std::size_t i = 0; i < side * side * side; ++i) append(mesh, meshed_cube(), 0.2 * place_in_lattice(i, side));
+  return mesh;
+}
+
 // Copies of a pile that give about `faces` boundary faces.
 mesh::BlockMesh<3> side_by_side(const mesh::BlockMesh<3>& pile, std::size_t faces) {
   mesh::BlockMesh<3> mesh;
@@ -170,14 +183,13 @@ mesh::BlockMesh<3> settled_cubes(std::size_t faces) {
 }
 
 mesh::BlockMesh<3> jointed_cubes(std::size_t faces) {
-  static const mesh::BlockMesh<3> cube = mesh::make_blocks<3>({box("cube", {0.2, 0.2, 0.2}, {0, 0, 0}, meshed_cube_size)});
-  static const std::size_t cube_faces = mesh::boundary_faces(cube).size();
-  const auto cubes = static_cast<double>(faces) / static_cast<double>(cube_faces);
-  const auto side = static_cast<std::size_t>(std::max(1L, std::lround(std::cbrt(cubes))));
-  mesh::BlockMesh<3> mesh;
-  mesh.bodies = cube.bodies;
-  for (std::size_t i = 0; i < side * side * side; ++i) append(mesh, cube, 0.2 * place_in_lattice(i, side));
-  return mesh;
+  const auto cubes = static_cast<double>(faces) / static_cast<double>(mesh::boundary_faces(meshed_cube()).size());
+  return lattice_of_cubes(static_cast<std::size_t>(std::max(1L, std::lround(std::cbrt(cubes)))));
+}
+
+mesh::BlockMesh<3> jointed_eights(std::size_t faces) {
+  static const mesh::BlockMesh<3> eight = lattice_of_cubes(2);
+  return side_by_side(eight, faces);
 }
 
 }  // namespace scree::bench

@@ -22,4 +22,7 @@ mesh::BlockMesh<3> settled_cubes(std::size_t faces);
 // Such cubes in a lattice, each joined to its neighbours on its whole sides. At least one; their number is a cube itself.
 mesh::BlockMesh<3> jointed_cubes(std::size_t faces);
 
+// Eight of them in such a lattice, and copies of that side by side: as many joints for every face whatever the size.
+mesh::BlockMesh<3> jointed_eights(std::size_t faces);
+
 }  // namespace scree::bench
