@@ -32,12 +32,13 @@ class Looks {
   Looks(const Function& function, Eigen::Vector3d place, double begin, double end, int steps)
       : function_(function), place_(std::move(place)), begin_(begin), end_(end), steps_(steps), values_(steps + 1) {
     for (int i = 0; i <= steps; ++i) values_[i] = function_(place_, time(i));
+    range_ = values_.maxCoeff() - values_.minCoeff();
+    still_ = std::max(standing_still * range_, rounding * values_.abs().maxCoeff());
   }
 
   // Where it begins or ends to rise, to fall or to stand still, but for the jumps that are in steps beside.
   [[nodiscard]] std::vector<double> bends(const std::vector<Jump>& jumps) const {
-    const double none = still();
-    const auto way = [&](int i) { return rise(i) <= none ? 0 : (values_[i + 1] > values_[i] ? 1 : -1); };
+    const auto way = [&](int i) { return rise(i) <= still_ ? 0 : (values_[i + 1] > values_[i] ? 1 : -1); };
     const auto leaps = [&](int i) {
       return std::any_of(jumps.begin(), jumps.end(),
                          [&](const Jump& jump) { return jump.before < time(i + 1) && jump.after > time(i); });
@@ -52,7 +53,7 @@ class Looks {
   [[nodiscard]] std::vector<Jump> jumps() const {
     std::vector<Jump> jumps;
     for (int i = 0; i < steps_; ++i) {
-      const bool small = rise(i) <= least_jump * range();
+      const bool small = rise(i) <= least_jump * range_;
       if (small && !is_sudden(i)) continue;
       if (const std::optional<Jump> jump = jump_after(i, small ? some : nearly_all)) jumps.push_back(*jump);
     }
@@ -62,14 +63,12 @@ class Looks {
 
  private:
   [[nodiscard]] double time(int i) const { return i == steps_ ? end_ : begin_ + (end_ - begin_) * i / steps_; }
-  [[nodiscard]] double range() const { return values_.maxCoeff() - values_.minCoeff(); }
-  [[nodiscard]] double still() const { return std::max(standing_still * range(), rounding * values_.abs().maxCoeff()); }
 
   // From a look to the next, up or down.
   [[nodiscard]] double rise(int i) const { return std::abs(values_[i + 1] - values_[i]); }
   [[nodiscard]] bool is_sudden(int i) const {
     const double beside = std::max(i > 0 ? rise(i - 1) : 0, i + 1 < steps_ ? rise(i + 1) : 0);
-    return function_.may_jump() && rise(i) > sudden * beside + still();
+    return function_.may_jump() && rise(i) > sudden * beside + still_;
   }
 
   // Between a look and the next, by halving: nothing if less than a share of the rise is left.
@@ -92,7 +91,7 @@ class Looks {
   [[nodiscard]] std::optional<Jump> jump_at_end() const {
     const double behind = end_ + apart * std::abs(end_), last = values_[steps_];
     try {
-      if (std::abs(function_(place_, behind) - last) > std::max(least_jump * range(), rounding * std::abs(last)))
+      if (std::abs(function_(place_, behind) - last) > std::max(least_jump * range_, rounding * std::abs(last)))
         return around(end_, end_);
     } catch (const InputError&) {
       // It need not have a value there.
@@ -109,6 +108,7 @@ class Looks {
   double begin_, end_;  // [s]
   int steps_;
   Eigen::ArrayXd values_;
+  double range_, still_;  // of all values; a rise that is none
 };
 
 // In ascending order; those of several functions at one time are one.

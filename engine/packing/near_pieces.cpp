@@ -16,7 +16,7 @@ PieceSet::PieceSet(const mesh::BlockMesh<3>& placed_mesh) : pieces(placed_mesh.b
   }
 }
 
-std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range) {
+std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range, Pairs asked) {
   Aabb<3> all;
   for (const Part& part : parts) all.extend(part.box);
   int axis = 0;
@@ -31,7 +31,7 @@ std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Pa
     const double end = part.box.max()[axis] + range;
     for (std::size_t j = i + 1; j < order.size() && parts[order[j]].box.min()[axis] <= end; ++j) {
       const Part& other = parts[order[j]];
-      if (part.block == other.block || (part.fixed && other.fixed)) continue;
+      if (part.block == other.block || (asked != Pairs::all && part.fixed && other.fixed)) continue;
       if (part.box.squaredExteriorDistance(other.box) <= range * range) pairs.emplace_back(&part, &other);
     }
   }

@@ -24,8 +24,11 @@ struct PieceSet {
   std::vector<Part> parts;  // in the order of the blocks
 };
 
-// Two parts of different blocks of which one at least is free, with boxes nearer than `range` [m]: sorted along the axis on
-// which they spread most, each is compared with those that begin before it ends.
-std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range);
+enum class Pairs { with_a_free_block, all };
+
+// Two parts of different blocks, with boxes nearer than `range` [m]: sorted along the axis on which they spread most, each is
+// compared with those that begin before it ends.
+std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range,
+                                                            Pairs asked = Pairs::with_a_free_block);
 
 }  // namespace scree::packing

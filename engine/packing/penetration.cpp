@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <map>
 
-#include "engine/packing/near_pieces.h"
-
 namespace scree::packing {
 
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost) {
+Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost,
+                                Pairs asked) {
   const auto is_lost = [&](const Part* part) { return std::binary_search(lost.begin(), lost.end(), part->block); };
   const PieceSet pieces(placed_mesh);
   std::map<std::pair<BlockId, BlockId>, double> depth;
-  for (const auto& [a, b] : near_pairs(pieces.parts, contact_range)) {
+  for (const auto& [a, b] : near_pairs(pieces.parts, contact_range, asked)) {
     if (is_lost(a) || is_lost(b)) continue;
     const double distance = separation(a->placed, b->placed, contact_range).distance;
     if (distance > contact_range) continue;

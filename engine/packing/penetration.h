@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "engine/mesh/block_mesh.h"
+#include "engine/packing/near_pieces.h"
 
 namespace scree::packing {
 
@@ -15,11 +15,11 @@ struct Penetration {
   BlockId first, second;     // the pair that holds the maximum; not valid if nothing overlaps
 };
 
-// Over all pairs of blocks of which one at least is free. The depth of a pair is the least translation that would part it, by
+// The depth of a pair is the least translation that would part it, by
 // separating axes (separation.h); of blocks in several convex pieces, the deepest of their pairs of pieces. A pair touches if
 // it is nearer than `contact_range` [m]. Blocks that are lost (ascending) count for nothing: they stay where they left the
 // scene, whatever else was lost there.
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range,
-                                std::span<const BlockId> lost = {});
+Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost = {},
+                                Pairs asked = Pairs::with_a_free_block);
 
 }  // namespace scree::packing

@@ -74,6 +74,15 @@ TEST(Doctor, FindsBodiesThatOverlap) {
   EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[0.2, 0.1, 1]"}) + "settle:\n").suspicious, IsEmpty());
 }
 
+// The walls of a box may; what is heated where nothing falls is there twice.
+TEST(Doctor, FindsFixedBodiesThatOverlapWhereNothingFalls) {
+  const auto both = cubes({"[0, 0, 0]", "[0.2, 0.1, 0.9]"}, {});
+  const std::string overlap = "block 0 of body c0 and block 1 of body c1 overlap by 0.1 m before anything moves";
+  EXPECT_THAT(report_of(both + heat).suspicious, testing::Contains(overlap));
+  const auto walls = cubes({"[0, 0, 0]", "[0.2, 0.1, 0.9]"}, {"[0, 0, 3]"});
+  EXPECT_THAT(report_of(walls + "settle:\n").suspicious, IsEmpty());
+}
+
 TEST(Doctor, FindsBodiesThatOverlapInThePlane) {
   const auto squares = [](const std::string& second) {
     return "dimension: 2\nmaterials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies:\n"

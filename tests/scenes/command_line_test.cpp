@@ -40,6 +40,11 @@ TEST(CommandLine, BashCompletesCommandsOptionsAndChoices) {
             std::string(SCREE_SOURCE_DIR) + "/scenes/slab.yaml\n");
 }
 
+TEST(CommandLine, ASettingMayStandBeforeTheScene) {
+  const std::string scene = std::string(SCREE_SOURCE_DIR) + "/scenes/slab.yaml";
+  EXPECT_EQ(said(program + " check --set title=before " + scene), said(program + " check " + scene + " --set title=before"));
+}
+
 TEST(CommandLine, ZshAcceptsItsFunction) {
   if (std::system("command -v zsh > /dev/null") != 0) GTEST_SKIP() << "zsh is not installed";
   const auto directory = fresh_directory("zsh");

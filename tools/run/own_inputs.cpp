@@ -53,7 +53,7 @@ std::vector<fs::path> results(const RunFiles& files) {
   return all;
 }
 
-// The first frame of a series, whatever its number, if there is one.
+// A frame of a series, if there is one.
 std::optional<fs::path> frame_of(const RunFiles& files, const std::string& name) {
   std::error_code not_there;
   for (const auto& entry : fs::directory_iterator(files.directory / name, not_there)) {

@@ -81,7 +81,7 @@ void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
 // Of blocks that are let go one after the other those that wait may lie where others were before.
 void note_overlaps(RunContext& context, const mesh::BlockMesh<3>& blocks) {
   if (context.scene.settle->options.release_time > 0) return;
-  for (const std::string& sentence : overlapping_bodies(blocks)) context.remark("suspicious: " + sentence);
+  for (const std::string& sentence : overlapping_bodies(blocks, true)) context.remark("suspicious: " + sentence);
 }
 
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {

@@ -87,16 +87,17 @@ Shadow shadow_of(const mesh::BlockMesh<3>& mesh, BlockId block, const Eigen::Mat
 
 // The deepest pair only: the others are of its kind, and mending the scene shows the next.
 template <>
-Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh) {
+Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh, bool falls) {
   const double edge = mesh::mean_edge(mesh);
-  const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge);
+  const packing::Pairs pairs = falls ? packing::Pairs::with_a_free_block : packing::Pairs::all;
+  const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge, {}, pairs);
   if (deepest.max <= rounding * edge) return {};
   return {overlap_sentence(mesh, deepest.first, deepest.second, fmt::format(" by {:.3g} m", deepest.max))};
 }
 
 // Found by nodes inside elements: two slim blocks that cross without holding each other's nodes are missed.
 template <>
-Sentences overlapping_bodies(const mesh::BlockMesh<2>& mesh) {
+Sentences overlapping_bodies(const mesh::BlockMesh<2>& mesh, bool) {
   for (const auto& [a, b] : near_pairs(mesh)) {
     if (reaches_into(mesh, a, b) || reaches_into(mesh, b, a)) return {overlap_sentence(mesh, a, b, "")};
   }
