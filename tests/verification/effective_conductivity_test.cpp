@@ -123,7 +123,7 @@ TEST(EffectiveConductivity, OfABondOfBricksComesNearInAWindowThatCutsElements) {
 }
 
 // Metal, felt and metal in a row, between sides that cut elements of the metal: the flux in these is one between nodes that are
-// held, and a third too much with it.
+// held, and up to 0.6 times too much with it.
 TEST(EffectiveConductivity, ALayerThatInsulatesDoesSoInAWindowThatCutsElementsBesideIt) {
   Table<MaterialId, Material> materials({test::rock(), test::rock()});
   materials[MaterialId{0}].conductivity = 20.0;
@@ -135,15 +135,21 @@ TEST(EffectiveConductivity, ALayerThatInsulatesDoesSoInAWindowThatCutsElementsBe
     layers[1].low[0] = 0.3;
     layers[1].material = MaterialId{1};
     layers[2].low[0] = 0.4;
-    const auto mesh = test::slab_mesh<2>(layers);
+    auto mesh = test::slab_mesh<2>(layers);
+    const double cell = 0.3 / cells;
+    for (Point<2>& node : mesh.nodes) {  // in the metal, so that held nodes of an element differ along the axis
+      const double within = std::fmod(node.x(), 0.4);
+      if (within > 1e-6 && within < 0.3 - 1e-6) node.x() += 0.3 * cell * std::sin(2.5 * node.y() / cell);
+    }
     HeatOptions options = test::options_for(mesh, 300);
     options.joint.law = JointConductance{1000};
     const auto model = make_heat_model(mesh, materials, contact::find_contacts(mesh, {}), options);
-    for (const double high : {0.3, 0.17}) {  // and in a window beside which heat passes, too
+    const auto along = [&](double high) {
       const Aabb<2> window{Point<2>(0.17, 0), Point<2>(0.53, high)};
-      EXPECT_NEAR(effective_conductivity<2>(mesh, materials, model, window).along[0] / series, 1, 0.03)
-          << cells << ", " << high;
-    }
+      return effective_conductivity<2>(mesh, materials, model, window).along[0] / series;
+    };
+    EXPECT_NEAR(along(0.3), 1, 0.03) << cells;
+    EXPECT_NEAR(along(0.17), 1, 0.16) << cells << ", where heat passes beside the window, too";
   }
 }
 

@@ -11,10 +11,10 @@ namespace {
 template <int dim>
 using Contacts = contact::ContactSet<dim>;
 
-// Two cubes of 0.2 m side by side.
+// Two cubes of 0.2 m side by side, whose meshes do not match: nothing has the same corners.
 template <int dim>
 Contacts<dim> contacts_at(const Point<dim>& site) {
-  std::vector<test::Slab<dim>> cubes(2, test::bar<dim>(0.2, 4, 4, 0.2));
+  std::vector<test::Slab<dim>> cubes{test::bar<dim>(0.2, 4, 4, 0.2), test::bar<dim>(0.2, 3, 3, 0.2)};
   for (auto& cube : cubes) cube.low = site;
   cubes[1].low[0] += 0.2;
   return contact::find_contacts(test::slab_mesh<dim>(cubes), {});
