@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -140,37 +139,33 @@ double expected_elements(const ShapeType& shape, double size) {
   return std::max(tetrahedra_in(volume<3>(shape), size), triangles_in(outside<3>(shape), size) / 2);
 }
 
-template <int dim>
-double extent(const Box& box) {
-  return box.size.head<dim>().maxCoeff();
-}
-template <int dim>
-double extent(const Sphere& sphere) {
-  return sphere.diameter;
-}
-template <int dim>
-double extent(const Cylinder& cylinder) {
-  return std::max(cylinder.diameter, cylinder.height);
-}
+struct Lengths {
+  double least, largest;  // [m]
+};
 
 template <int dim>
-double thickness(const Box& box) {
-  return box.size.head<dim>().minCoeff();
+Lengths lengths(const Box& box) {
+  return {box.size.head<dim>().minCoeff(), box.size.head<dim>().maxCoeff()};
 }
 template <int dim>
-double thickness(const Sphere& sphere) {
-  return sphere.diameter;
+Lengths lengths(const Sphere& sphere) {
+  return {sphere.diameter, sphere.diameter};
 }
 template <int dim>
-double thickness(const Cylinder& cylinder) {
-  return std::min(cylinder.diameter, cylinder.height);
+Lengths lengths(const Cylinder& cylinder) {
+  return {std::min(cylinder.diameter, cylinder.height), std::max(cylinder.diameter, cylinder.height)};
+}
+template <int>
+Lengths lengths(const MeshFile&) {
+  return {};  // it is as the file says
 }
 
 // OpenCASCADE takes 1e-7 m for nothing, and may end the program: what comes near it is drawn in units of its own size [m].
 template <int dim, class ShapeType>
 double drawing_unit(const ShapeType& shape) {
   constexpr double small = 1e-6;
-  return thickness<dim>(shape) < small ? extent<dim>(shape) : 1;
+  const auto [least, largest] = lengths<dim>(shape);
+  return least < small ? largest : 1;
 }
 
 Box in_units(const Box& box, double unit) {
@@ -188,7 +183,7 @@ template <int dim, class ShapeType>
 SimplexMesh<dim> mesh_drawn(const BodySpec& body, const ShapeType& shape) {
   expect_reasonable(body, expected_elements<dim>(shape, body.mesh_size));
   // Far beyond the shape, a size spoils the coarsest mesh instead of making it coarser.
-  const double size = std::min(body.mesh_size, extent<dim>(shape));
+  const double size = std::min(body.mesh_size, lengths<dim>(shape).largest);
   const double unit = drawing_unit<dim>(shape);
   // A thin plate's two sides come out alike from the frontal mesher, and nodes straight above each other make slivers, which
   // no optimiser can remove from between two faces. Then the next mesher is asked.
@@ -243,13 +238,7 @@ SimplexMesh<dim> mesh_in_cells(const BodySpec& body, const ShapeType& shape) {
 template <int dim>
 void check_slenderness(const BodySpec& body) {
   constexpr double most = 1e6;
-  double least = 0, largest = 0;
-  if (const auto* box = std::get_if<Box>(&body.shape)) {
-    least = box->size.head<dim>().minCoeff();
-    largest = box->size.head<dim>().maxCoeff();
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
-    std::tie(least, largest) = std::minmax({cylinder->diameter, cylinder->height});
-  }
+  const auto [least, largest] = std::visit([](const auto& shape) { return lengths<dim>(shape); }, body.shape);
   if (largest > most * least) {
     throw body_error(body, "", fmt::format("{:g} m long and {:g} m thick", largest, least),
                      fmt::format("must be no more than {:g} times as long as thick", most), "Look at the units of its lengths");

@@ -17,13 +17,16 @@ namespace {
 // Removes all frames of a series but those in `kept`, and what an interrupted write left behind.
 void remove_frames(const fs::path& folder, const std::string& name, const std::set<fs::path>& kept) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
-    const bool frame = file.starts_with(name + "_") && entry.path().extension() == ".vtu";
-    if ((frame || file.starts_with(".part-" + name + "_")) && !kept.contains(entry.path())) fs::remove(entry.path());
+    const bool unfinished = entry.path().filename().string().starts_with(".part-" + name + "_");
+    if ((is_frame(entry.path(), name) || unfinished) && !kept.contains(entry.path())) fs::remove(entry.path());
   }
 }
 
 }  // namespace
+
+bool is_frame(const fs::path& file, const std::string& name) {
+  return file.filename().string().starts_with(name + "_") && file.extension() == ".vtu";
+}
 
 void remove_series(const fs::path& directory, const std::string& name) {
   fs::remove(directory / (name + ".pvd"));

@@ -14,6 +14,9 @@
 
 namespace scree::output {
 
+// Whether a file in the folder of a series has the name of a frame of it.
+bool is_frame(const std::filesystem::path& file, const std::string& name);
+
 // Removes a series, the .pvd first. Throws std::filesystem::filesystem_error.
 void remove_series(const std::filesystem::path& directory, const std::string& name);
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/check.h"
+#include "engine/output/series.h"
 
 namespace scree::run {
 
@@ -57,8 +58,7 @@ std::vector<fs::path> results(const RunFiles& files) {
 std::optional<fs::path> frame_of(const RunFiles& files, const std::string& name) {
   std::error_code not_there;
   for (const auto& entry : fs::directory_iterator(files.directory / name, not_there)) {
-    const std::string file = entry.path().filename().string();
-    if (file.starts_with(name + "_") && file.ends_with(".vtu")) return entry.path();
+    if (output::is_frame(entry.path(), name)) return entry.path();
   }
   return std::nullopt;
 }
