@@ -14,7 +14,7 @@ namespace scree::thermal {
 
 namespace {
 
-// Trees are cut until each takes at most this part of the work. What is above them is shared less well.
+// The forest is cut into trees that take at most this part of the work. What is above them is shared less well.
 constexpr int parts = 16;
 constexpr std::int64_t flops_worth_sharing = 2'000'000;
 

@@ -10,8 +10,8 @@ namespace scree::thermal {
 
 namespace {
 
-// Trees are cut until each holds at most this part of the factor. What is above them is shared less well.
-constexpr int parts = 4;
+// The forest is cut into trees that hold at most this part of the factor. What is above them is shared less well.
+constexpr int parts = 5;
 // Factors with fewer entries are done before a second thread has woken up.
 constexpr std::int64_t entries_worth_sharing = 200'000;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace scree::thermal {
 
@@ -26,30 +27,70 @@ std::vector<std::int64_t> weights_below(std::vector<std::int64_t> weights, const
   return weights;
 }
 
+using Tree = CutForest::Tree;
+
+// The heaviest whole trees of the forest that are no heavier, the others cut from their roots down.
+CutForest cut(const std::vector<std::int64_t>& weights, const std::vector<int>& parents, std::int64_t heaviest) {
+  const std::vector<std::int64_t> below = weights_below(weights, parents);
+  CutForest forest;
+  // Which tree a supernode belongs to: parents first.
+  constexpr int in_top = -1;
+  std::vector<int> tree(weights.size(), in_top);
+  for (std::size_t s = weights.size(); s-- > 0;) {
+    const int above = parents[s] < 0 ? in_top : tree[parents[s]];
+    if (above != in_top) {
+      tree[s] = above;
+    } else if (below[s] <= heaviest) {
+      tree[s] = static_cast<int>(forest.trees.size());
+      forest.trees.push_back({{}, below[s]});
+    }
+  }
+  for (std::size_t s = 0; s < weights.size(); ++s) {
+    (tree[s] == in_top ? forest.top : forest.trees[tree[s]].supernodes).push_back(static_cast<int>(s));
+  }
+  return forest;
+}
+
+void sort_by_weight(std::vector<Tree>& trees) {
+  std::stable_sort(trees.begin(), trees.end(), [](const Tree& a, const Tree& b) { return a.weight > b.weight; });
+}
+
+// The heaviest tree first, each to the group that weighs least so far.
+std::vector<Tree> grouped(std::vector<Tree> trees, std::size_t groups) {
+  sort_by_weight(trees);
+  std::vector<Tree> together(groups);
+  for (const Tree& tree : trees) {
+    Tree& group =
+        *std::min_element(together.begin(), together.end(), [](const Tree& a, const Tree& b) { return a.weight < b.weight; });
+    group.weight += tree.weight;
+    group.supernodes.insert(group.supernodes.end(), tree.supernodes.begin(), tree.supernodes.end());
+  }
+  for (Tree& group : together) std::sort(group.supernodes.begin(), group.supernodes.end());
+  return together;
+}
+
+// Of each four the heaviest and the lightest are in the first half.
+std::vector<Tree> in_like_halves(std::vector<Tree> trees) {
+  sort_by_weight(trees);
+  std::vector<Tree> halves;
+  for (const bool first : {true, false}) {
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      if ((i % 4 == 0 || i % 4 == 3) == first) halves.push_back(std::move(trees[i]));
+    }
+  }
+  return halves;
+}
+
 }  // namespace
 
 CutForest cut_forest(const SupernodalPattern& pattern, const std::vector<std::int64_t>& weights, int parts,
                      std::int64_t least) {
   const std::int64_t heaviest = std::max(std::accumulate(weights.begin(), weights.end(), std::int64_t{0}) / parts, least);
-  const std::vector<int> parents = parents_of(pattern);
-  const std::vector<std::int64_t> below = weights_below(weights, parents);
-  CutForest forest;
-  std::vector<CutForest::Tree>& trees = forest.trees;
-  // Which tree a supernode belongs to: parents first.
-  constexpr int in_top = -1;
-  std::vector<int> tree(pattern.supernodes, in_top);
-  for (int s = pattern.supernodes - 1; s >= 0; --s) {
-    const int above = parents[s] < 0 ? in_top : tree[parents[s]];
-    if (above != in_top) {
-      tree[s] = above;
-    } else if (below[s] <= heaviest) {
-      if (trees.empty() || trees.back().weight + below[s] > heaviest) trees.emplace_back();
-      trees.back().weight += below[s];
-      tree[s] = static_cast<int>(trees.size()) - 1;
-    }
-  }
-  for (int s = 0; s < pattern.supernodes; ++s) (tree[s] == in_top ? forest.top : trees[tree[s]].supernodes).push_back(s);
-  std::stable_sort(trees.begin(), trees.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
+  CutForest forest = cut(weights, parents_of(pattern), heaviest);
+  std::int64_t all = 0;
+  for (const Tree& tree : forest.trees) all += tree.weight;
+  const std::int64_t groups = all <= heaviest ? 1 : 2 * ((all - 1) / (2 * heaviest) + 1);
+  forest.trees = in_like_halves(grouped(std::move(forest.trees), std::min<std::size_t>(groups, forest.trees.size())));
   return forest;
 }
 

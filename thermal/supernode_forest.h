@@ -15,12 +15,12 @@ struct CutForest {
     std::vector<int> supernodes;  // ascending: each after those below it
     std::int64_t weight = 0;
   };
-  std::vector<Tree> trees;  // the heaviest first; small ones go together
+  std::vector<Tree> trees;  // the first half of them, with which one of two threads begins, weighs about as much as the second
   std::vector<int> top;     // ascending
 };
 
-// No tree weighs more than a part of all, one of so many, or than `least`, for which a second thread is not worth waking up.
-// How they are cut depends on the supernodes' weights alone.
+// Cut until none weighs more than a part of all, one of so many, or than `least`, for which a second thread is not worth waking
+// up. Those that are left are put together to trees of like weights. How depends on the supernodes' weights alone.
 CutForest cut_forest(const SupernodalPattern& pattern, const std::vector<std::int64_t>& weights, int parts, std::int64_t least);
 
 }  // namespace scree::thermal
