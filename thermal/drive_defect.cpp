@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "thermal/evaluated.h"
 #include "thermal/exchange.h"
@@ -13,31 +14,31 @@ namespace {
 
 // The midpoint rule with a correction for the slopes at both ends, by parabolas: exact for cubics.
 constexpr int many = 16;
-std::vector<Look> many_looks() {
-  std::vector<Look> at;
-  for (int i = 0; i < many; ++i) at.push_back({(i + 0.5) / many, 1.0 / many});
+constexpr std::array<Look, many> many_looks = [] {
+  std::array<Look, many> at{};
+  for (int i = 0; i < many; ++i) at[i] = {(i + 0.5) / many, 1.0 / many};
   constexpr std::array correction{2.0 / 24, -3.0 / 24, 1.0 / 24};
   for (std::size_t i = 0; i < correction.size(); ++i) {
     at[i].weight += correction[i] / many;
     at[many - 1 - i].weight += correction[i] / many;
   }
   return at;
-}
+}();
 
-std::vector<Look> gauss_looks() {
-  const double off = 0.5 * std::sqrt(0.6);
-  return {{0.5 - off, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + off, 5.0 / 18}};
-}
+constexpr double off_middle = 0.38729833462074170;  // sqrt(0.6) / 2
+constexpr std::array<Look, 3> gauss_looks{{{0.5 - off_middle, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + off_middle, 5.0 / 18}}};
 
 class Defect {
  public:
   Defect(const std::vector<Look>& quadrature, const LookedAt& step)
-      : quadrature_(quadrature), step_(step), of_places_(step.smooth ? gauss_looks() : many_looks()), of_one_(many_looks()) {}
+      : quadrature_(quadrature), step_(step), of_places_(many_looks) {
+    if (step.smooth) of_places_ = gauss_looks;
+  }
 
   // Of f(t): the quadrature's less the integral. What is the same everywhere costs little, however often it is looked at.
   template <class Value>
   double operator()(bool varies_in_place, const Value& f) const {
-    const std::vector<Look>& looks = varies_in_place ? of_places_ : of_one_;
+    const std::span<const Look> looks = varies_in_place ? of_places_ : many_looks;
     std::array<double, many> values;
     double integral = 0;
     for (std::size_t i = 0; i < looks.size(); ++i) {
@@ -65,7 +66,7 @@ class Defect {
 
   const std::vector<Look>& quadrature_;
   const LookedAt& step_;
-  std::vector<Look> of_places_, of_one_;  // for the integral
+  std::span<const Look> of_places_;  // for the integral of what varies in place
 };
 
 // Heat that is missed [J].

@@ -210,15 +210,12 @@ class HeatRun::Implementation {
         grid.refine();
         continue;
       }
-      grid.advance();
-      state_.next_step = dt;
-      for (double times = twice_too_long; state_.next_step < 4 * dt; times *= twice_too_long) {
-        if (times * added > growth_margin * budget_.of_step(error, grid.time(), 2 * state_.next_step)) break;
-        if (times * local > growth_margin * budget_.of_any()) break;
-        // At the interval's end the next one's grid begins, whose steps may be longer.
-        if (!grid.done() && !grid.coarsen()) break;
-        state_.next_step *= 2;
-      }
+      const auto errs_little = [&](double next) {
+        const double times = std::pow(next / dt, 3);
+        return times * added <= growth_margin * budget_.of_step(error, grid.time(), next) &&
+               times * local <= growth_margin * budget_.of_any();
+      };
+      state_.next_step = grid.advance(errs_little);
       state_.earlier = ends;
       growth_now_ = std::move(growth);
       accept(step, dt, grid.time(), between, progress);

@@ -233,7 +233,7 @@ void LumpingEstimate::make_matrix() {
     unit_conductance_ = 0 * conductance + unit;
     conductance += 0 * unit;
   }
-  matrix_ = std::move(conductance);
+  matrix_ = conductance;
   conductance_ = Eigen::Map<const Eigen::VectorXd>(matrix_.valuePtr(), matrix_.nonZeros());
   for (Eigen::Index column = 0; column < matrix_.cols(); ++column) {
     const int* const begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];

@@ -25,7 +25,18 @@ class StepGrid {
   [[nodiscard]] bool done() const { return position_ == std::int64_t{1} << level_; }
   [[nodiscard]] int level() const { return level_; }
 
-  void advance() { ++position_; }
+  // Goes on by a step and gives the length of the next: twice and four times as long if may_be(length) and the grid allow it.
+  // At the interval's end the next one's grid begins, whose steps may be longer.
+  template <class MayBe>
+  double advance(const MayBe& may_be) {
+    double next = step();
+    ++position_;
+    for (int doubled = 0; doubled < 2 && may_be(2 * next); ++doubled) {
+      if (!done() && !coarsen()) break;
+      next *= 2;
+    }
+    return next;
+  }
 
   // Halves the step; not possible beyond max_level.
   void refine() {
@@ -33,6 +44,7 @@ class StepGrid {
     position_ *= 2;
   }
 
+ private:
   // Doubles the step where the grid allows it: not on an odd position, and not above the whole interval.
   bool coarsen() {
     if (level_ == 0 || position_ % 2 != 0) return false;
@@ -41,7 +53,6 @@ class StepGrid {
     return true;
   }
 
- private:
   double start_;   // [s]
   double length_;  // [s]
   int level_ = 0;  // steps are length / 2^level

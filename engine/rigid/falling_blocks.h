@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/rigid/damping.h"
@@ -11,7 +12,7 @@ namespace scree::rigid {
 
 class FallingBlocks {
  public:
-  FallingBlocks(const World& world, const Eigen::Vector3d& gravity) : gravity_(gravity), held_at_(world.block_count()) {}
+  FallingBlocks(const World& world, Eigen::Vector3d gravity) : gravity_(std::move(gravity)), held_at_(world.block_count()) {}
 
   // After every step: blocks of which anything else than gravity changes the momentum touch something.
   void observe(const World& world, const Damping& damping);

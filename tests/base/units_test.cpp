@@ -24,7 +24,7 @@ std::string reason_of(const char* text, const Quantity& quantity) {
   const auto parsed = parse_quantity(text, quantity);
   EXPECT_TRUE(std::holds_alternative<UnitProblem>(parsed)) << text;
   if (std::holds_alternative<double>(parsed)) return "";
-  const UnitProblem& problem = std::get<UnitProblem>(parsed);
+  const auto& problem = std::get<UnitProblem>(parsed);
   return problem.reason + (problem.suggestion.empty() ? "" : " | " + problem.suggestion);
 }
 

@@ -130,7 +130,7 @@ std::vector<Change> world_changes() {
           {"settle.accept_moving", {}, "settle.accept_moving=true"}};
 }
 
-std::vector<Change> heat_changes() {
+std::vector<Change> contact_changes() {
   const std::vector<std::string> joint{"contact.joints=[{bodies: [plate, block], conductance: 5}]"};
   const std::vector<std::string> by_material{"contact.joints=[{materials: [ore, ore], perfect: true}]"};
   const std::vector<std::string> soft{"contact.joints=[{bodies: [plate, block], stiffness_factor: 5}]"};
@@ -148,8 +148,11 @@ std::vector<Change> heat_changes() {
           {"contact.indentation", {}, "contact.indentation=0.01"},
           {"contact.tolerance", {}, "contact.tolerance=1"},
           {"contact.stiffness_factor", {}, "contact.stiffness_factor=1"},
-          {"contact.form", {}, "contact.form=literal"},
-          {"heat.initial", {}, "heat.initial=1"},
+          {"contact.form", {}, "contact.form=literal"}};
+}
+
+std::vector<Change> heat_changes() {
+  return {{"heat.initial", {}, "heat.initial=1"},
           {"heat.initial.*", {"heat.initial={plate: 1, block: 2}"}, "heat.initial.plate=2"},
           {"heat.boundaries[].body", {}, "heat.boundaries[0].body=block"},
           {"heat.boundaries[].surface", {}, "heat.boundaries[0].surface=top"},
@@ -201,7 +204,7 @@ std::vector<Change> heat_changes() {
 
 std::map<std::string, Change> all_changes() {
   std::map<std::string, Change> changes;
-  for (const auto& part : {world_changes(), shape_changes(), copy_changes(), heat_changes()}) {
+  for (const auto& part : {world_changes(), shape_changes(), copy_changes(), contact_changes(), heat_changes()}) {
     for (const Change& change : part) changes[change.key] = change;
   }
   return changes;

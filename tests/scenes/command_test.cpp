@@ -123,9 +123,9 @@ TEST(Command, RefusesWordsItDoesNotKnowWithStatusTwo) {
 
 TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
   const auto directory = fresh_directory("accuracy");
-  const Outcome outcome = scree(
-      "accuracy " + scene("slab") +
-      " --quiet --mesh 2 1 --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --set heat.until=\"10 s\" --out " + directory.string());
+  const Outcome outcome =
+      scree("accuracy " + scene("slab") +
+            R"( --quiet --mesh 2 1 --tolerance "1 K" "0.1 K" "0.01 K" --set heat.until="10 s" --out )" + directory.string());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_NE(outcome.text.find("against the exact solution of the scene"), std::string::npos) << outcome.text;
   EXPECT_EQ(outcome.text.find("reference"), std::string::npos) << "the finest run has an error, too";
@@ -136,7 +136,7 @@ TEST(Command, TellsErrorAgainstCostAndDrawsIt) {
 }
 
 TEST(Command, MakesALadderAgainIntoItsFolder) {
-  const std::string ladder = "accuracy " + scene("slab") + " --quiet --mesh 2 1 --tolerance \"1 K\" --set heat.until=\"10 s\"";
+  const std::string ladder = "accuracy " + scene("slab") + R"( --quiet --mesh 2 1 --tolerance "1 K" --set heat.until="10 s")";
   const auto directory = fresh_directory("accuracy_twice");
   {
     const auto lock = run::FileLock::take(directory / ".lock", run::FileLock::Kind::exclusive, run::FileLock::Heirs::none);
@@ -168,7 +168,7 @@ output: {probes: {p: {point: [0, 0], exact: 300}}}
 // Stops the command when a run of it has begun: the second one unless told.
 Outcome interrupted_accuracy(const std::string& scene_name, const std::filesystem::path& directory,
                              const std::string& run = "run_01") {
-  return scree("accuracy " + scene(scene_name) + " --quiet --tolerance \"1 K\" \"0.1 K\" \"0.01 K\" --mesh 1 --out " +
+  return scree("accuracy " + scene(scene_name) + R"( --quiet --tolerance "1 K" "0.1 K" "0.01 K" --mesh 1 --out )" +
                directory.string() + " & all=$!; for i in $(seq 3000); do [ -e " + (directory / run / "log").string() +
                " ] && break; sleep 0.01; done; kill -TERM $all; wait $all");
 }
@@ -247,7 +247,7 @@ TEST(Command, DrawsARunWithoutAScreen) {
   const auto directory = fresh_directory("drawn");
   ASSERT_EQ(scree("run " + scene("bars_and_joint") + " --quiet --set heat.until=\"2 h\" --out " + directory.string()).status,
             0);
-  const Outcome outcome = scree("render " + directory.string() + " --time \"1 h\" --cut \"0 m\"");
+  const Outcome outcome = scree("render " + directory.string() + R"( --time "1 h" --cut "0 m")");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_GT(std::filesystem::file_size(directory / "heat.png"), 10000u);
   const auto said = [&](const std::string& option) { return scree("render " + directory.string() + " " + option).text; };

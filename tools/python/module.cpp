@@ -28,7 +28,7 @@ void bind_errors(py::module_& module) {
       "What a scene or a file says is wrong: one line for everything that is, with place, key, value and rule.";
   py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError).doc() =
       "A computation that could not go on although its input was accepted.";
-  const py::object not_settled = py::reinterpret_steal<py::object>(
+  const auto not_settled = py::reinterpret_steal<py::object>(
       PyErr_NewExceptionWithDoc("scree.NotSettled",
                                 "A fall whose blocks still move at its end, or overlap too far. Its attribute `packing` is "
                                 "the packing nevertheless.",
