@@ -31,11 +31,11 @@ class ExplicitScheme : public TimeScheme {
     const Eigen::VectorXd error_slope = -inverse_.cwiseProduct(balance_.lost(from.error, linear_));
     Step result;
     result.change = held(model_, from.temperature + length * slope, drives_.at(from.time + length)) - from.temperature;
-    // h^2/2 of the companion's second derivative is what Euler leaves out: that of the drive, and that of the temperatures.
-    const Eigen::VectorXd driven = drives_.vary() ? drive_change(from, length) : Eigen::VectorXd::Zero(slope.size()).eval();
-    const Eigen::VectorXd moved = result.change - length * error_slope;
-    const Eigen::VectorXd second = inverse_.cwiseProduct(driven - balance_.lost(moved, linear_));
-    result.local = -0.5 * length * second;
+    // h^2/2 of the companion's second derivative is what Euler leaves out: here that of what the temperatures change. What the
+    // drive changes is looked at for itself, as Euler sees it at the step's start only (drive_quadrature).
+    const auto held_nodes = static_cast<Eigen::Index>(model_.fixed_nodes.size());
+    const Eigen::VectorXd moved = held(model_, result.change - length * error_slope, Eigen::VectorXd::Zero(held_nodes));
+    result.local = 0.5 * length * inverse_.cwiseProduct(balance_.lost(moved, linear_));
     result.error = from.error + length * error_slope + result.local;
     result.stages = {{1, from.time, from.temperature}};
     return result;
@@ -44,19 +44,12 @@ class ExplicitScheme : public TimeScheme {
   // Steps are bounded by stability and given by the user, not chosen from an error.
   double first_step(const Instant&, double) override { return std::numeric_limits<double>::infinity(); }
 
-  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return {{0, 0.5}, {1, 0.5}}; }
+  [[nodiscard]] std::vector<Look> drive_quadrature(double) const override { return {{0, 1}}; }
   [[nodiscard]] double safety() const override { return 1; }
   [[nodiscard]] double cost_exponent() const override { return 1; }
   [[nodiscard]] std::string name() const override { return "explicit Euler, eq. (8), fixed steps"; }
 
  private:
-  // How much F changes over the step if the temperatures do not [W].
-  Eigen::VectorXd drive_change(const Instant& from, double length) {
-    const Drive& before = drives_.at(from.time);
-    const Drive& after = drives_.at(from.time + length);
-    return balance_.heating(from.temperature, after) - balance_.heating(from.temperature, before);
-  }
-
   const HeatModel& model_;
   Eigen::VectorXd inverse_;  // of the capacity, 0 for a fixed node [K/J]
   Drives drives_;

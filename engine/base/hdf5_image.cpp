@@ -55,14 +55,14 @@ void put_attribute_of(const Hdf5Handle& file, const std::string& name, hid_t typ
 }
 
 void put_rows(const Hdf5Handle& file, const std::string& name, hid_t type, const void* values, std::size_t count,
-              std::size_t width, hid_t transfer = H5P_DEFAULT) {
+              std::size_t width) {
   const hsize_t extent[2] = {count / width, width};
   const Hdf5Handle space(H5Screate_simple(width == 1 ? 1 : 2, extent, nullptr), H5Sclose, name);
   const Hdf5Handle timeless = properties(H5P_DATASET_CREATE);
   hdf5_expect(H5Pset_obj_track_times(timeless.id(), false) >= 0, name);
   const Hdf5Handle set(H5Dcreate2(file.id(), name.c_str(), type, space.id(), H5P_DEFAULT, timeless.id(), H5P_DEFAULT), H5Dclose,
                        name);
-  if (count > 0) hdf5_expect(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, transfer, values) >= 0, name);
+  if (count > 0) hdf5_expect(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, name);
 }
 
 }  // namespace
@@ -91,14 +91,12 @@ void Hdf5Image::put(const std::string& name, std::span<const std::int64_t> value
 }
 
 void Hdf5Image::put(const std::string& name, const std::vector<std::string>& values) {
-  std::vector<const char*> starts;
-  starts.reserve(values.size());
-  for (const std::string& value : values) starts.push_back(value.c_str());
-  // Texts are converted on the way, in two buffers of 1 MB unless told otherwise, which are cleared for a name or two.
-  const Hdf5Handle transfer = properties(H5P_DATASET_XFER);
-  const std::size_t buffer = std::clamp<std::size_t>(16 * values.size(), 1 << 10, 1 << 20);
-  hdf5_expect(H5Pset_buffer(transfer.id(), buffer, nullptr, nullptr) >= 0, name);
-  put_rows(file_, name, hdf5_text_type().id(), starts.data(), starts.size(), 1, transfer.id());
+  std::size_t length = 0;
+  for (const std::string& value : values) length = std::max(length, value.size());
+  const std::size_t width = length + 1;
+  std::string rows(width * values.size(), '\0');
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(&rows[width * i], values[i].size());
+  put_rows(file_, name, hdf5_text_type(width).id(), rows.data(), values.size(), 1);
 }
 
 std::string_view Hdf5Image::bytes() {

@@ -31,6 +31,8 @@ class Hdf5Image {
   // A table with rows of `width` entries.
   void put(const std::string& name, std::span<const double> values, std::size_t width = 1);
   void put(const std::string& name, std::span<const std::int64_t> values, std::size_t width = 1);
+  // All as long as the longest: where they are of variable length, HDF5 follows what the file says of where they are and how
+  // long, and a damaged one ends the program.
   void put(const std::string& name, const std::vector<std::string>& values);
 
   // Ends the file. Its bytes, which live as long as this.

@@ -29,13 +29,17 @@ Hdf5Handle space_of(const Hdf5Handle& set, const std::string& name) {
   return {H5Dget_space(set.id()), H5Sclose, name};
 }
 
+// That its bytes in the file can stand for.
+double most_bytes(const Hdf5Handle& set) {
+  constexpr double most_in_a_byte = 2048;  // zlib makes a thousandth of what is all alike
+  return most_in_a_byte * static_cast<double>(H5Dget_storage_size(set.id()));
+}
+
 // How many values it has. A damaged one that claims more than its bytes in the file can hold is found before memory is asked
 // for.
 std::size_t size_of(const Hdf5Handle& set, const Hdf5Handle& space, const std::string& name) {
-  constexpr double most_in_a_byte = 2048;  // zlib makes a thousandth of what is all alike
   const hssize_t size = H5Sget_simple_extent_npoints(space.id());
-  const auto bytes = static_cast<double>(H5Dget_storage_size(set.id()));
-  hdf5_expect(size >= 0 && static_cast<double>(size) <= most_in_a_byte * bytes, name);
+  hdf5_expect(size >= 0 && static_cast<double>(size) <= most_bytes(set), name);
   return static_cast<std::size_t>(size);
 }
 
@@ -44,6 +48,30 @@ std::vector<T> numbers(const Hdf5Handle& file, const std::string& name, hid_t ty
   const Hdf5Handle set = set_of(file, name);
   std::vector<T> values(size_of(set, space_of(set, name), name));
   if (!values.empty()) hdf5_expect(H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
+  return values;
+}
+
+std::vector<std::string> texts_in_rows(const Hdf5Handle& set, const Hdf5Handle& type, std::size_t count,
+                                       const std::string& name) {
+  const std::size_t width = H5Tget_size(type.id());
+  hdf5_expect(width > 0 && static_cast<double>(width) * static_cast<double>(count) <= most_bytes(set), name);
+  std::string rows(width * count, '\0');
+  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0, name);
+  std::vector<std::string> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = rows.substr(width * i, width).c_str();
+  return values;
+}
+
+// As earlier versions of this program wrote them.
+std::vector<std::string> texts_elsewhere(const Hdf5Handle& set, std::size_t count, const std::string& name) {
+  std::vector<char*> starts(count);
+  const Hdf5Handle type = hdf5_text_type();
+  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
+  const bool all_there = std::find(starts.begin(), starts.end(), nullptr) == starts.end();
+  std::vector<std::string> values;
+  if (all_there) values.assign(starts.begin(), starts.end());
+  H5Dvlen_reclaim(type.id(), space_of(set, name).id(), H5P_DEFAULT, starts.data());
+  hdf5_expect(all_there, name);
   return values;
 }
 
@@ -80,17 +108,11 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   const Hdf5Handle set = set_of(file_, name);
-  const Hdf5Handle space = space_of(set, name);
-  std::vector<char*> starts(size_of(set, space, name));
-  if (starts.empty()) return {};
-  const Hdf5Handle type = hdf5_text_type();
-  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
-  const bool all_there = std::find(starts.begin(), starts.end(), nullptr) == starts.end();
-  std::vector<std::string> values;
-  if (all_there) values.assign(starts.begin(), starts.end());
-  H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, starts.data());
-  hdf5_expect(all_there, name);
-  return values;
+  const std::size_t count = size_of(set, space_of(set, name), name);
+  const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose, name);
+  hdf5_expect(H5Tget_class(type.id()) == H5T_STRING, name);
+  if (count == 0) return {};
+  return H5Tis_variable_str(type.id()) > 0 ? texts_elsewhere(set, count, name) : texts_in_rows(set, type, count, name);
 }
 
 bool Hdf5Reader::holds_texts(const std::string& name) const {

@@ -139,9 +139,10 @@ std::optional<InnerPorosity> inner_porosity(const Columns& columns) {
       result.box.extend(Eigen::Vector3d(column.place.x(), column.place.y(), z));
     }
   }
-  if (!(all > 0)) return std::nullopt;
-  result.porosity = 1 - solid / all;
   result.volume = all * columns.spacing * columns.spacing;
+  // What is smaller than a block may lie between two.
+  if (!(all > 0) || result.volume < std::pow(columns.size, 3)) return std::nullopt;
+  result.porosity = 1 - solid / all;
   return result;
 }
 

@@ -17,7 +17,7 @@ struct InnerPorosity {
   double margin = 0;      // distance from floor, walls and surface: one block's size [m]
 };
 
-// Nothing if the pile is too small to have an inside.
+// Nothing if the pile is too small to have an inside that is as large as a block.
 std::optional<InnerPorosity> inner_porosity(const Columns& columns);
 
 // The inner part of one line; nothing if it has none.

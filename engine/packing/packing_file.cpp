@@ -20,7 +20,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 6;
+constexpr std::int64_t format_version = 7;  // texts in rows
 constexpr std::int64_t oldest_version = 5;  // says nothing of what bodies were made from
 
 // The numbers of a report, in the order of the file.
@@ -229,7 +229,7 @@ void check_kind(const Hdf5Reader& in, const std::filesystem::path& file, int dim
   }
   if (const std::int64_t version = in.number_attribute("version"); !is_read(version)) {
     throw refusal(file, fmt::format("of format version {}", version),
-                  fmt::format("this program reads versions {} and {}", oldest_version, format_version),
+                  fmt::format("this program reads versions {} to {}", oldest_version, format_version),
                   "Settle the scene again");
   }
   if (const std::int64_t found = in.number_attribute("dimension"); found != dimension) {

@@ -31,6 +31,9 @@ struct Side {
   const PolyhedronShape* piece;  // null: the whole block
 
   [[nodiscard]] const mesh::ConvexPiece& shape() const { return piece == nullptr ? *block->placed->piece : piece->piece(); }
+  [[nodiscard]] const PolyhedronShape& polyhedron() const {
+    return piece == nullptr ? static_cast<const PolyhedronShape&>(*block->body->getCollisionShape()) : *piece;
+  }
 };
 
 inline Side whole(const BlockMotion& block) {

@@ -55,6 +55,11 @@ class SurfaceSide {
   const CompoundShape* compound_ = nullptr;  // null: a convex block
 };
 
+// How far two blocks must come for one to be through the other, or of the radius of the smaller one: plates are thinner [m].
+double size_to_pass(const Side& first, const Side& second) {
+  return std::min({first.radius, second.radius, first.polyhedron().thickness() + second.polyhedron().thickness()});
+}
+
 double restitution_of(const Side& first, const Side& second) {
   return std::min(first.block->body->getRestitution(), second.block->body->getRestitution());
 }
@@ -160,7 +165,7 @@ ContactPoints PolyhedronCollision::look(const Pair& pair) {
 // strike it there. Whether the pair would touch nowhere on its way through the step, gravity's share of it aside.
 bool PolyhedronCollision::passes_by(const Pair& pair, const ContactPoints& points) const {
   constexpr double sideways = 0.01;  // of the radius of the smaller one: too little to be past a face by more than its rim
-  constexpr double between = 0.25;   // two looks, likewise
+  constexpr double between = 0.25;   // two looks, of the size to pass
   constexpr double most_looks = 64;
   const double touching = ranges_.clearance + ranges_.fall;
   const double nearer = pair.reach - ranges_.near;  // within the step, the most [m]
@@ -170,13 +175,21 @@ bool PolyhedronCollision::passes_by(const Pair& pair, const ContactPoints& point
                                   [&](const ContactPoint& point) { return point.distance < room_needed(pair, point); });
   if (!closes) return false;
   static thread_local PlacedPiece of_first, of_second;
-  const double looks = std::clamp(std::ceil(nearer / (between * size)), 4.0, most_looks);
-  for (double look = looks; look >= 1; --look) {  // most that touch do so at the end
-    const double time = look / looks * pair.time_step;
+  const auto touches_after = [&](double time) {
     const PlacedPiece &a = placed_after(pair.first, time, of_first), &b = placed_after(pair.second, time, of_second);
-    if (packing::separation(a, b, touching, pair.face_bias).distance <= touching) return false;
+    return packing::separation(a, b, touching, pair.face_bias).distance <= touching;
+  };
+  const double enough = std::ceil(nearer / (between * size_to_pass(pair.first, pair.second)));
+  const double looks = std::clamp(enough, 4.0, most_looks);
+  for (double look = looks; look >= 1; --look) {  // most that touch do so at the end
+    if (touches_after(look / looks * pair.time_step)) return false;
   }
-  return true;
+  if (enough <= looks) return true;
+  // So fast that it may be through between two looks: when a point comes to the plane.
+  return std::none_of(points.points.begin(), points.points.begin() + points.count, [&](const ContactPoint& point) {
+    const double way = point.distance - ranges_.clearance, speed = approach(pair, point);
+    return way > 0 && way < speed * pair.time_step && touches_after(way / speed);
+  });
 }
 
 // The points are as far apart as the pair comes nearer by itself. What others push it nearer by is still held.
@@ -211,12 +224,12 @@ ContactPoints PolyhedronCollision::points_at(const Pair& pair, const PlacedPiece
 // their size. They are looked at where the first one has come to touch the second on its way, and what is found there is said
 // of where they are now. Turns are left out.
 ContactPoints PolyhedronCollision::met_on_the_way(const Pair& pair, const PlacedPiece& first, const PlacedPiece& second) {
-  constexpr double long_way = 0.5;  // of the radius of the smaller one
+  constexpr double long_way = 0.5;  // of the size to pass
   constexpr double between = 0.25;  // two looks, likewise
   constexpr double most_looks = 200;
-  constexpr int halvings = 4;  // of what is between two looks: the two are a sixtieth of the radius deep in each other then
+  constexpr int halvings = 4;  // of what is between two looks: the two are a sixtieth of the size deep in each other then
   const Eigen::Vector3d way = pair.time_step * from_bullet(pair.first.block->velocity - pair.second.block->velocity);
-  const double size = std::min(pair.first.radius, pair.second.radius);
+  const double size = size_to_pass(pair.first, pair.second);
   if (way.norm() < long_way * size) return {};
   const double step = 1 / std::min(most_looks, std::ceil(way.norm() / (between * size)));
   const auto meets = [&](double part) {

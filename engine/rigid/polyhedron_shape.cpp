@@ -6,17 +6,14 @@
 
 namespace scree::rigid {
 
-PolyhedronShape::PolyhedronShape(mesh::ConvexPiece piece) : piece_(std::move(piece)) {
-  m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
-  setMargin(0);
-  for (const auto& vertex : piece_.vertices) radius_ = std::max(radius_, vertex.norm());
-}
+namespace {
 
-double PolyhedronShape::thickness() const {
+// Least extent along the normal of one of its faces [m].
+double thickness_of(const mesh::ConvexPiece& piece) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& face : piece_.faces) {
+  for (const auto& face : piece.faces) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& vertex : piece_.vertices) {
+    for (const auto& vertex : piece.vertices) {
       const double height = face.normal.dot(vertex);
       low = std::min(low, height);
       high = std::max(high, height);
@@ -24,6 +21,14 @@ double PolyhedronShape::thickness() const {
     least = std::min(least, high - low);
   }
   return least;
+}
+
+}  // namespace
+
+PolyhedronShape::PolyhedronShape(mesh::ConvexPiece piece) : piece_(std::move(piece)), thickness_(thickness_of(piece_)) {
+  m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+  setMargin(0);
+  for (const auto& vertex : piece_.vertices) radius_ = std::max(radius_, vertex.norm());
 }
 
 void PolyhedronShape::getAabb(const btTransform& pose, btVector3& low, btVector3& high) const {

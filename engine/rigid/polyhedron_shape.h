@@ -31,7 +31,7 @@ class PolyhedronShape final : public btConvexInternalShape {
   // Of the smallest sphere about the origin that holds the piece [m].
   [[nodiscard]] double radius() const { return radius_; }
   // Least extent of the piece along the normal of one of its faces [m].
-  [[nodiscard]] double thickness() const;
+  [[nodiscard]] double thickness() const { return thickness_; }
 
   void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override;
   btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override;
@@ -43,6 +43,7 @@ class PolyhedronShape final : public btConvexInternalShape {
 
  private:
   mesh::ConvexPiece piece_;
+  double thickness_;
   double radius_ = 0;
 };
 

@@ -78,6 +78,12 @@ TEST(InnerPorosity, OfAFewBlocksIsNotKnown) {
   EXPECT_FALSE(inner_porosity(Columns{}));
 }
 
+// A region that is smaller than a block may lie between two.
+TEST(InnerPorosity, OfLessThanABlockIsNotKnown) {
+  EXPECT_FALSE(inner_porosity(cut(lattice(3, 2, 0.9, false))));
+  EXPECT_TRUE(inner_porosity(cut(lattice(6, 2, 0.9, false))));
+}
+
 TEST(Columns, ALineThroughATetrahedronIsInItAsLongAsItsThicknessThere) {
   mesh::BlockMesh<3> mesh;
   add_tetrahedron(mesh, {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)});

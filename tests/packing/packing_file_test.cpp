@@ -236,6 +236,27 @@ TEST_F(PackingFile, AFlippedBitInANumberIsNoticed) {
   EXPECT_THAT(refusal<3>(file()), HasSubstr("packing is damaged"));
 }
 
+// None of them ends the program, whatever it is of, and what is read all the same is what was written.
+TEST_F(PackingFile, AFlippedBitAnywhereIsNoticedOrChangesNothing) {
+  const auto whole = awkward_packing<3>();
+  write(whole, file());
+  const std::string bytes = bytes_of(file());
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += 7) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+    std::ofstream(file(), std::ios::binary) << damaged;
+    try {
+      const auto found = read<3>(file());
+      EXPECT_EQ(found.key, whole.key);
+      EXPECT_EQ(found.mesh.nodes[NodeId{0}], whole.mesh.nodes[NodeId{0}]);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100U);
+}
+
 TEST_F(PackingFile, AFileThatCannotBeWrittenIsARunError) {
   EXPECT_THROW(write(awkward_packing<3>(), file() / "below"), RunError);
 }

@@ -127,6 +127,45 @@ TEST(Passing, NoPlateFallsThroughAnotherUnseen) {
   EXPECT_GT(passed, 0) << "the steps are short enough, and the test sees nothing";
 }
 
+// Flat on each other, and by up to thirty times the thickness of both a step.
+TEST(Passing, ATileIsHeldByAThinShelfHoweverFastItComes) {
+  for (const double speed : {0.0, 6.0, 10.0, 15.0, 24.0, 40.0}) {
+    for (int i = 0; i < 12; ++i) {
+      mesh::BlockMesh<3> mesh;
+      add_box(mesh, {1, 1, 0.002}, {0, 0, -0.001}, true);
+      const double gap = speed > 0 ? 0.002 + 0.0037 * i : 1.6 + 0.083 * i;
+      const BlockId tile = add_box(mesh, {0.3, 0.3, 0.003}, {0, 0, 0.0015 + gap}, false, {0, 0, -speed});
+      const auto packing = settle(mesh, material(0.5), for_time(speed > 0 ? 0.1 : 1));
+      EXPECT_NEAR(gap + packing.poses[tile].translation.z(), 0, 1e-5) << speed << " m/s from " << gap;
+    }
+  }
+}
+
+TEST(Passing, NoCubeFliesThroughAFloorAtKilometresASecond) {
+  for (int i = 0; i < 5; ++i) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {1, 1, 0.2}, {0, 0, -0.1}, true);
+    const double gap = 0.3 + 0.77 * i;
+    const BlockId cube = add_box(mesh, {0.1, 0.1, 0.1}, {0, 0, 0.05 + gap}, false, {0, 0, -1e4});
+    const auto packing = settle(mesh, material(0.5), for_time(8.0 / 240));
+    EXPECT_NEAR(gap + packing.poses[cube].translation.z(), 0, 1e-5) << gap;
+  }
+}
+
+// Beside the rim as the step begins, over it by 5 mm as the tile comes down to it, and below the shelf as the step ends.
+TEST(Passing, NoTileFliesThroughAShelfFromBesideItUnseen) {
+  for (int i = 0; i < 8; ++i) {
+    mesh::BlockMesh<3> mesh;
+    add_box(mesh, {1, 1, 0.002}, {0, 0, -0.001}, true);
+    const Vector3d start(-0.651 - 0.0005 * i, 0, 0.004 + 0.0004 * i), velocity(10, 0, -4);
+    const BlockId tile = add_box(mesh, {0.3, 0.3, 0.003}, start, false, velocity);
+    const auto packing = settle(mesh, material(0.5), for_time(4.0 / 240));
+    const double flown = -4 * 4.0 / 240;
+    EXPECT_FALSE(packing.poses[tile].translation.z() < flown && packing.settled->deepest_overlap < 0.5) << i;
+    EXPECT_GT(packing.poses[tile].rotation.vec().norm(), 1e-3) << "it strikes with its rim";
+  }
+}
+
 // At three sizes a step, in any attitude: whatever hits leaves its path, or the run says how deep it was.
 TEST(Passing, NothingFliesThroughABlockUnseen) {
   std::mt19937 random(3);
