@@ -1,8 +1,8 @@
 // What a step misses of loads, surroundings and temperatures that jump or swing within it.
 //
-// A step sees what drives it at some times only, and its estimate of the error takes it for a parabola between them, that of
-// Euler's steps for what it is at the start. With f
-// what comes into a node [W] and w the weights of that parabola's quadrature (TimeScheme::drive_quadrature), the estimate lacks
+// A step sees what drives it at some times only, and its estimate of the error takes it for a parabola between them; that of
+// Euler's steps takes it for what it is at the start. With f what comes into a node [W] and w the weights of the quadrature
+// that this is (TimeScheme::drive_quadrature), the estimate lacks
 //   (h sum_i w_i f(t_i) - integral of f over the step)/C,
 // which is added to it: exact for a block that nothing else acts on, and too large for nodes that pass on their heat faster
 // than the step. A held temperature counts in the mean for
