@@ -23,7 +23,7 @@ BlockMotion motion_of(const btRigidBody& body, const packing::PlacedPiece& place
 }
 
 void place(const BlockMotion& block, packing::PlacedPiece& placed) {
-  place(static_cast<const PolyhedronShape&>(*block.body->getCollisionShape()), block.pose, placed);
+  place(whole(block).polyhedron(), block.pose, placed);
 }
 
 const packing::PlacedPiece& placed(const Side& side, packing::PlacedPiece& memory) {
