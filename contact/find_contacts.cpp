@@ -11,6 +11,7 @@
 #include "contact/semi_spring.h"
 #include "contact/surface.h"
 #include "contact/target_search.h"
+#include "engine/base/brief_waits.h"
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
 
@@ -157,6 +158,7 @@ template <int dim>
 ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOptions& options) {
   SCREE_EXPECT(options.indentation > 0 && options.indentation < 1);
   SCREE_EXPECT(options.tolerance >= 0);
+  wait_briefly();
   ContactSet<dim> set;
   auto faces = mesh::boundary_faces(mesh);
   const std::size_t all = faces.size();

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/brief_waits.h"
 #include "thermal/assemble_blocks.h"
 #include "thermal/boundary.h"
 #include "thermal/choose_lumped.h"
@@ -186,6 +187,7 @@ HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<Material
 template <int dim>
 HeatModel make_heat_model(const mesh::BlockMesh<dim>& mesh, const Table<MaterialId, Material>& materials,
                           const contact::ContactSet<dim>& contacts, const JointConduction& joints, const HeatOptions& options) {
+  wait_briefly();
   HeatModel model = unjoined(mesh, materials, options, {});
   check_held_joints(joints, model, options.time.until);
   set_varying(mesh, materials, model);
