@@ -178,9 +178,11 @@ class EnthalpyScheme : public TimeScheme {
     return false;
   }
 
-  // Whether a node is at 0 K that was above it: a formula may have no value there, and shorter steps do not get there.
+  // Whether a node is at 0 K that was above it: a formula may have no value there, and shorter steps do not get there. Below a
+  // tenth of a nanokelvin no step is short enough.
   static bool below_zero(const Eigen::VectorXd& from, const Eigen::VectorXd& temperature) {
-    return (temperature.array() <= 0 && from.array() > 0).any();
+    constexpr double as_cold = 1e-10;  // [K]
+    return (temperature.array() <= 0 && from.array() > as_cold).any();
   }
 
   // An error keeps its heat, not its temperature, where c changes. Where c does so by a multiple, as at the corners of a

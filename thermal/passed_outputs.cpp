@@ -18,12 +18,16 @@ constexpr double least_remembered = 0.125 * (1 - 1e-9);
 // Of the tolerance: nodes whose temperature changes by less in a step, or is changed by less by a kink, bend nothing that is
 // seen at outputs.
 constexpr double least_bending = 0.1;
+// So that formulas are looked at as often as outputs are asked for, however quiet it was: 16 times an interval, at each of some
+// places once (time_bends.h).
+constexpr double most_of_formulas = 64;
 
 }  // namespace
 
 PassedOutputs::PassedOutputs(const HeatModel& model, const TimeOptions& options)
     : model_(model),
       driven_(varies_in_time(model)),
+      most_(is_looked_at(model) ? most_of_formulas : std::numeric_limits<double>::infinity()),
       every_(options.output_every),
       until_(options.until),
       tolerance_(options.tolerance) {}
@@ -34,7 +38,7 @@ double PassedOutputs::intervals_from(double nearest, double every, double limit,
   constexpr std::size_t earliest = BetweenSteps::ends_before - 2;
   if (earlier.size() <= earliest) return count;
   const auto fits = [&](double more) {
-    return StepGrid(0, more * every, next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
+    return more <= most_ && StepGrid(0, more * every, next_step).level() == 0 && std::fmod(nearest, more) == 0 &&
            (nearest + more) * every <= limit + on_grid * every &&
            are_smooth(earlier[earliest].time, (nearest + more) * every) &&
            are_smooth(nearest * every, nearest * every + more * every);

@@ -41,6 +41,7 @@ class PassedOutputs {
 
   const HeatModel& model_;
   bool driven_;       // by what varies in time
+  double most_;       // intervals that a step may pass
   double every_;      // 0 if nothing is put out on the way [s]
   double until_;      // [s]
   double tolerance_;  // [K]

@@ -82,8 +82,20 @@ class SteadySolver {
     }
     if (radiating == 0) return held(model_, model_.initial, drive_);
     const double applied = drive_.load.cwiseMax(0.0).sum();
-    const double hot = std::pow(std::pow(largest_given, 4) + applied / radiating, 0.25);
-    return held(model_, Eigen::VectorXd::Constant(model_.initial.size(), hot), drive_);
+    return nearest_sound(std::pow(std::pow(largest_given, 4) + applied / radiating, 0.25), largest_given);
+  }
+
+  // Where little radiates that is far hotter than the state, and a formula may have no value there: halfway back then.
+  [[nodiscard]] Eigen::VectorXd nearest_sound(double hot, double given) const {
+    for (int halving = 0;; ++halving, hot = 0.5 * (hot + given)) {
+      Eigen::VectorXd guess = held(model_, Eigen::VectorXd::Constant(model_.initial.size(), hot), drive_);
+      try {
+        [[maybe_unused]] const Linearised asked = balance_.linearised(guess, drive_);
+        return guess;
+      } catch (const InputError&) {
+        if (halving == most_halvings) throw;
+      }
+    }
   }
 
   // What is not linear is corrected again.

@@ -181,6 +181,12 @@ TimeBends::TimeBends(const HeatModel& model, double begin, double end) {
   jumps_ = merged(std::move(jumps_));
 }
 
+bool is_looked_at(const HeatModel& model) {
+  bool any = false;
+  for_each_change(model, [&](const Function& function, const auto&) { any = any || !function.bends_between(0, 0); });
+  return any;
+}
+
 std::size_t TimeBends::most_between(double begin, double end) const {
   std::size_t most = 0;
   for (const Function* table : tables_) most = std::max(most, table->bends_between(begin, end).value_or(0));

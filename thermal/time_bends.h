@@ -53,4 +53,7 @@ class TimeBends {
   bool may_jump_anywhere_ = false;
 };
 
+// Whether anything changes in time by a formula, of which looks tell alone.
+bool is_looked_at(const HeatModel& model);
+
 }  // namespace scree::thermal

@@ -128,6 +128,9 @@ std::string check_report(const scree::Scene& scene) {
       scene.packing ? scree::run::stored_packing<dim>(scene)
                     : scree::packing::unmoved<dim>(scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers()));
   const auto blocks = scree::packing::remaining(packing).mesh;
+  if constexpr (dim == 3) {
+    if (scene.settle) scree::run::check_clearance(scene, blocks);
+  }
   scene.settle ? scree::run::check_heat(scene, blocks) : scree::run::check_placed(scene, packing);
   return scree::to_text(scree::check_scene(scene, blocks));
 }

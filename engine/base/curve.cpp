@@ -121,7 +121,7 @@ class Formula : public Curve::Form {
 
   [[nodiscard]] double integral(double temperature) const override {
     const Kept* kept = kept_at(temperature);
-    const double result = kept == nullptr ? integral_beyond(temperature)
+    const double result = kept == nullptr ? integral_below_zero(temperature)
                           : kept->smooth  ? kept->before + kept->piece.integral_to(temperature)
                                           : kept->before + through(kept->begin, temperature).whole();
     if (!std::isfinite(result)) refuse(result, temperature);
@@ -129,8 +129,9 @@ class Formula : public Curve::Form {
   }
 
  private:
-  // Pieces end here; the way from here to a higher temperature is one interval of Gauss's rule.
+  // Of what is cut at first, and of what is cut where something is as hot.
   static constexpr int last_kelvin = 5000;
+  static constexpr int last_hot_kelvin = 50000;
   // How often a kelvin may be halved, and into how many pieces in all: a formula that jumps needs as many as halvings.
   static constexpr int most_halvings = 40;
   static constexpr std::size_t most_pieces = 2000;
@@ -148,6 +149,17 @@ class Formula : public Curve::Form {
     Piece piece;
   };
 
+  // Pieces of some kelvins, ascending.
+  struct Kelvins {
+    int first;
+    int last;
+    std::once_flag once{};
+    std::vector<Kept> kept{};
+    std::vector<std::size_t> first_of_kelvin{};  // of these, and their number
+    std::vector<double> rises{};                 // of the integral over each, while they are cut
+    double to_last = 0;                          // integral from the reference to the end of the last
+  };
+
   [[nodiscard]] double raw(double temperature) const { return unit_(expression_(std::array{temperature})); }
 
   [[nodiscard]] Piece through(double from, double to) const {
@@ -156,32 +168,46 @@ class Formula : public Curve::Form {
     return {from, to, values};
   }
 
-  // Nothing below 0 K and beyond the last one.
+  // Nothing below 0 K.
   [[nodiscard]] const Kept* kept_at(double temperature) const {
-    if (!(temperature >= 0 && temperature < last_kelvin)) return nullptr;
-    std::call_once(cut_, [&] { cut(); });
-    const auto kelvin = static_cast<std::size_t>(temperature);
-    const Kept* first = kept_.data() + first_of_kelvin_[kelvin];
-    const Kept* last = kept_.data() + first_of_kelvin_[kelvin + 1];
+    if (!(temperature >= 0)) return nullptr;
+    const Kelvins& kelvins = kelvins_at(temperature);
+    const auto kelvin = static_cast<std::size_t>(temperature) - static_cast<std::size_t>(kelvins.first);
+    const Kept* first = kelvins.kept.data() + kelvins.first_of_kelvin[kelvin];
+    const Kept* last = kelvins.kept.data() + kelvins.first_of_kelvin[kelvin + 1];
     if (last - first == 1) return first;
     return std::upper_bound(first, last, temperature, [](double at, const Kept& kept) { return at < kept.begin; }) - 1;
   }
 
-  [[nodiscard]] double integral_beyond(double temperature) const {
-    std::call_once(cut_, [&] { cut(); });
-    if (temperature < 0) return kept_.front().before + through(0, temperature).whole();
-    return temperature == last_kelvin ? to_last_ : to_last_ + through(last_kelvin, temperature).whole();
+  [[nodiscard]] const Kelvins& kelvins_at(double temperature) const {
+    std::call_once(usual_.once, [&] {
+      cut(usual_);
+      sum_up(usual_, first_summed(), 0);
+    });
+    if (temperature < last_kelvin) return usual_;
+    if (!(temperature < last_hot_kelvin)) {
+      throw InputError(
+          rule_.problem(text_, fmt::format("must be asked for below {} K, and is at {:g} K", last_hot_kelvin, temperature),
+                        "Look for what heats so much, or give a table"));
+    }
+    std::call_once(hot_.once, [&] {
+      cut(hot_);
+      sum_up(hot_, 0, usual_.to_last);
+    });
+    return hot_;
   }
 
-  void cut() const {
-    std::vector<double> rises;  // of the integral over each
-    for (int k = 0; k < last_kelvin; ++k) {
-      first_of_kelvin_.push_back(kept_.size());
+  [[nodiscard]] double integral_below_zero(double temperature) const {
+    return kelvins_at(0).kept.front().before + through(0, temperature).whole();
+  }
+
+  void cut(Kelvins& kelvins) const {
+    for (int k = kelvins.first; k < kelvins.last; ++k) {
+      kelvins.first_of_kelvin.push_back(kelvins.kept.size());
       room_ = most_pieces;
-      append(k, k + 1, through(k, k + 1), most_halvings, rises);
+      append(k, k + 1, through(k, k + 1), most_halvings, kelvins);
     }
-    first_of_kelvin_.push_back(kept_.size());
-    sum_up(rises);
+    kelvins.first_of_kelvin.push_back(kelvins.kept.size());
   }
 
   // A temperature that is usual.
@@ -189,9 +215,10 @@ class Formula : public Curve::Form {
 
   // Where a formula all but vanishes towards 0 K, as T^3, sums from a usual temperature would drown differences there in their
   // rounding.
-  [[nodiscard]] bool vanishes_at_zero(const std::vector<double>& rises) const {
+  [[nodiscard]] bool vanishes_at_zero() const {
     const auto sum = [&](std::size_t kelvin) {
-      return std::accumulate(rises.begin(), rises.begin() + static_cast<std::ptrdiff_t>(first_of_kelvin_[kelvin]), 0.0);
+      const auto begin = usual_.rises.begin();
+      return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(usual_.first_of_kelvin[kelvin]), 0.0);
     };
     constexpr double of_a_constant = 1.0 / reference;
     return std::abs(sum(1)) < 0.3 * of_a_constant * std::abs(sum(reference));
@@ -199,33 +226,35 @@ class Formula : public Curve::Form {
 
   // The piece that sums begin at, up and down: at a temperature that is usual, or the nearest to it at which there is a value.
   // Where a formula grows beyond all bounds towards 0 K, as 1/T^2, sums from there would drown all other differences.
-  [[nodiscard]] std::size_t first_summed(const std::vector<double>& rises) const {
-    if (vanishes_at_zero(rises)) return 0;
-    std::size_t start = first_of_kelvin_[reference];
-    for (int away = 0; away < last_kelvin && !std::isfinite(rises[start]); ++away) {
+  [[nodiscard]] std::size_t first_summed() const {
+    if (vanishes_at_zero()) return 0;
+    std::size_t start = usual_.first_of_kelvin[reference];
+    for (int away = 0; away < last_kelvin && !std::isfinite(usual_.rises[start]); ++away) {
       const int kelvin = static_cast<int>(reference) + (away % 2 == 0 ? -away / 2 : away / 2 + 1);
-      if (kelvin >= 0) start = first_of_kelvin_[static_cast<std::size_t>(kelvin)];
+      if (kelvin >= 0) start = usual_.first_of_kelvin[static_cast<std::size_t>(kelvin)];
     }
     return start;
   }
 
-  void sum_up(const std::vector<double>& rises) const {
-    const std::size_t start = first_summed(rises);
-    double sum = 0;
-    for (std::size_t i = start; i < kept_.size(); ++i) {
-      kept_[i].before = sum;
-      sum += rises[i];
+  // Up and down from the piece `start`, where the integral is this.
+  static void sum_up(Kelvins& kelvins, std::size_t start, double integral) {
+    double sum = integral;
+    for (std::size_t i = start; i < kelvins.kept.size(); ++i) {
+      kelvins.kept[i].before = sum;
+      sum += kelvins.rises[i];
     }
-    to_last_ = sum;
-    sum = 0;
+    kelvins.to_last = sum;
+    sum = integral;
     for (std::size_t i = start; i-- > 0;) {
-      sum -= rises[i];
-      kept_[i].before = sum;
+      sum -= kelvins.rises[i];
+      kelvins.kept[i].before = sum;
     }
+    kelvins.rises.clear();
+    kelvins.rises.shrink_to_fit();
   }
 
   // Pieces on each of which Gauss's rule is exact, so that the integral rises wherever the formula is positive.
-  void append(double from, double to, const Piece& whole, int halvings, std::vector<double>& rises) const {
+  void append(double from, double to, const Piece& whole, int halvings, Kelvins& kelvins) const {
     const double middle = 0.5 * (from + to);
     const Piece left = through(from, middle), right = through(middle, to);
     const bool smooth = sums_up(whole, from, left, right, to) && follows(whole, from, left, middle, right, to) &&
@@ -233,12 +262,12 @@ class Formula : public Curve::Form {
     const bool nowhere = !std::isfinite(whole.whole()) && valueless(from, middle) && valueless(middle, to);
     if (!smooth && !nowhere && halvings > 0 && room_ > 0) {
       --room_;
-      append(from, middle, left, halvings - 1, rises);
-      append(middle, to, right, halvings - 1, rises);
+      append(from, middle, left, halvings - 1, kelvins);
+      append(middle, to, right, halvings - 1, kelvins);
       return;
     }
-    kept_.push_back({from, 0, smooth, whole});
-    rises.push_back(smooth ? whole.whole() : left.whole() + right.whole());
+    kelvins.kept.push_back({from, 0, smooth, whole});
+    kelvins.rises.push_back(smooth ? whole.whole() : left.whole() + right.whole());
   }
 
   // Whether the formula has no value at any of Gauss's points.
@@ -296,11 +325,9 @@ class Formula : public Curve::Form {
   UnitConverter unit_;
   ValueRule rule_;
   std::string text_;
-  mutable std::once_flag cut_;
-  mutable std::vector<Kept> kept_;                    // ascending
-  mutable std::vector<std::size_t> first_of_kelvin_;  // of these, and their number
-  mutable double to_last_ = 0;                        // integral from the reference to the end of the last
-  mutable std::size_t room_ = 0;                      // pieces that a kelvin may still be cut into
+  mutable Kelvins usual_{.first = 0, .last = last_kelvin};
+  mutable Kelvins hot_{.first = last_kelvin, .last = last_hot_kelvin};
+  mutable std::size_t room_ = 0;  // pieces that a kelvin may still be cut into
 };
 
 }  // namespace

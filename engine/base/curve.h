@@ -33,15 +33,15 @@ class Curve {
   // at which a formula breaks the rule.
   double operator()(double temperature) const;
 
-  // Of its value over temperature [per K], from any thread. Where a formula bends or jumps, below 0 K and from 5,000 K on it is
-  // not known and taken for 0.
+  // Of its value over temperature [per K], from any thread. Where a formula bends or jumps, and below 0 K, it is not known and
+  // taken for 0.
   [[nodiscard]] double slope(double temperature) const;
 
   // From a temperature that is the curve's own, so that differences are what it is for: 0 K of a number, a table and a formula
   // that vanishes there, 300 K of others, or the nearest at which they have a value. Exact for a number and a table; of a
   // formula by Gauss's rule of five points in each kelvin, which is halved where the formula bends or jumps: exact to rounding
   // for polynomials to the ninth degree, rising wherever the formula is positive. Throws InputError where a formula without a
-  // value lies in between.
+  // value lies in between. All of a formula is known below 50,000 K, and refused from there on.
   [[nodiscard]] double integral(double temperature) const;
 
   [[nodiscard]] std::optional<double> constant() const;

@@ -1,10 +1,14 @@
 #include "engine/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,14 +34,41 @@ void expect_mesh_format(const std::filesystem::path& path) {
   if (start != expected) throw std::runtime_error("it does not begin with $MeshFormat");
 }
 
-// A vertex that is no number ends Gmsh by an assertion. Of a binary file, which has no such lines, Gmsh hands it on.
+// Of a binary .stl file: a head of 80 bytes, the number of triangles and 50 bytes of each, three numbers for its normal and
+// nine for its corners. Gmsh takes a corner that is no number for another one, and a part of the surface is gone.
+void expect_numbers_of(std::ifstream& file, std::uint32_t triangles) {
+  std::array<char, 50> record{};
+  for (std::uint32_t number = 1; number <= triangles && file.read(record.data(), record.size()); ++number) {
+    std::array<float, 12> values{};
+    std::memcpy(values.data(), record.data(), sizeof values);
+    if (std::all_of(values.begin() + 3, values.end(), [](float value) { return std::isfinite(value); })) continue;
+    throw std::runtime_error(fmt::format("a corner of its triangle {} is no number", number));
+  }
+}
+
+// The triangles of a binary .stl file, whose size tells it from one of text.
+std::optional<std::uint32_t> binary_triangles(std::ifstream& file, std::uintmax_t size) {
+  constexpr std::uintmax_t head = 80;
+  std::uint32_t triangles = 0;
+  file.seekg(head);
+  const bool read = static_cast<bool>(file.read(reinterpret_cast<char*>(&triangles), sizeof triangles));
+  if (read && size == head + sizeof triangles + std::uintmax_t{50} * triangles) return triangles;
+  file.clear();
+  file.seekg(0);
+  return std::nullopt;
+}
+
+// A vertex that is no number ends Gmsh by an assertion, or is lost.
 void expect_numbers(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  if (const auto triangles = binary_triangles(file, std::filesystem::file_size(path))) {
+    return expect_numbers_of(file, *triangles);
+  }
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
+    std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::size_t word = line.find_first_not_of(" \t");
     if (word == std::string::npos || line.compare(word, 6, "vertex") != 0) continue;
-    std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return std::tolower(c); });
     if (line.find("nan", word + 6) == std::string::npos) continue;
     throw std::runtime_error(fmt::format("a coordinate in its line {} is no number", number));
   }

@@ -41,6 +41,9 @@ ProbeHistory read_probe_history(const std::filesystem::path& file) {
     problem.rule = "must be a table of probes that a run has left";
     throw InputError(problem);
   }
+  if (!std::filesystem::is_regular_file(file)) {
+    throw RunError(fmt::format("{}: is damaged: it is no file. Run the scene again", file.string()));
+  }
   ProbeHistory history;
   std::vector<std::vector<double>*> columns;
   const std::string text(std::istreambuf_iterator<char>(stream), {});

@@ -22,6 +22,24 @@ void remove_frames(const fs::path& folder, const std::string& name, const std::s
   }
 }
 
+// A run cannot go on with what is not as it left it.
+InputError damaged(const fs::path& index, const std::string& rule) {
+  Problem problem;
+  problem.key = "series";
+  problem.value = index.string();
+  problem.rule = rule;
+  problem.suggestion = "Run the scene again";
+  return InputError(problem);
+}
+
+std::vector<SeriesEntry> earlier_entries(const fs::path& index) {
+  try {
+    return read_index(index);
+  } catch (const RunError& error) {
+    throw damaged(index, fmt::format("must be the series that the run has left; {}", error.what()));
+  }
+}
+
 }  // namespace
 
 bool is_frame(const fs::path& file, const std::string& name) {
@@ -43,14 +61,13 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
     remove_unfinished(index_);
     std::set<fs::path> kept;
     if (keep_until) {
-      for (SeriesEntry& entry : read_index(index_)) {
+      for (SeriesEntry& entry : earlier_entries(index_)) {
         if (entry.time > *keep_until) continue;
         kept.insert(directory_ / entry.file);
         entries_.push_back(std::move(entry));
       }
       if (entries_.empty() || entries_.back().time != *keep_until) {
-        throw RunError(fmt::format("{}: has no frame at {} s, from where the run would go on. Run the scene again",
-                                   index_.string(), *keep_until));
+        throw damaged(index_, fmt::format("must have a frame at {} s, from where the run would go on", *keep_until));
       }
     }
     // The index goes first, so that it never names a file that is gone.

@@ -43,10 +43,17 @@ Motion observe_motion(const World& world, const Damping& damping, double time_st
   return motion;
 }
 
+double rest_window(const SettleOptions& options, double mean_edge) {
+  constexpr double times = 3;
+  const double gravity = options.gravity.norm();
+  if (gravity == 0) return options.rest_window;
+  return std::max(options.rest_window, times * std::sqrt(2 * options.rest_displacement * mean_edge / gravity));
+}
+
 RestWatch::RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time)
     : rest_speed_(options.rest_speed),
       rest_unbalanced_(options.rest_unbalanced_force),
-      rest_window_(options.rest_window),
+      rest_window_(rest_window(options, mean_edge)),
       allowed_(options.rest_displacement, mean_edge) {
   begin(world, time);
 }
@@ -94,7 +101,7 @@ bool RestWatch::observe(const World& world, const Motion& motion, double time) {
 
 std::string RestWatch::criterion() const {
   return fmt::format(
-      "in every step of a window of {:g} s the root mean square speed is below {:g} m/s and the unbalanced force (mean net "
+      "in every step of a window of {:.3g} s the root mean square speed is below {:g} m/s and the unbalanced force (mean net "
       "force on a block over mean force of a touching pair) below {:g}, and no point of any block has moved more than {:.3g} m "
       "in it, nor more than {:g} of the block's width",
       rest_window_, rest_speed_, rest_unbalanced_, allowed_.largest(), allowed_.part());

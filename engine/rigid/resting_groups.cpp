@@ -23,7 +23,7 @@ RestingGroups::RestingGroups(const World& world, const SettleOptions& options, d
     : speed_(part * options.rest_speed),
       force_over_weight_(part * options.rest_unbalanced_force),
       allowed_(part * options.rest_displacement, mean_edge),
-      window_(options.rest_window),
+      window_(rest_window(options, mean_edge)),
       gravity_(options.gravity.norm()),
       records_(world.block_count()) {
   begin(world, time);

@@ -1,9 +1,12 @@
 #include "engine/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -166,6 +169,32 @@ TEST_F(MeshFiles, ADamagedFileIsRefusedWhereverItEnds) {
               StartsWith("(must be a whole .stl mesh; it cannot be read"));
   EXPECT_THAT(refusal("nan.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 -NaN 0\nvertex 1 0 0\nvertex 0 1 0\n"),
               StartsWith("(must be a whole .stl mesh; it cannot be read: a coordinate in its line 4 is no number)"));
+  EXPECT_THAT(refusal("NAN.stl", "SOLID s\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVertex 1 NAN 0\nVERTEX 0 1 0\n"),
+              StartsWith("(must be a whole .stl mesh; it cannot be read: a coordinate in its line 5 is no number)"));
+}
+
+TEST_F(MeshFiles, ACornerOfABinaryFileThatIsNoNumberIsRefusedAtItsTriangle) {
+  const std::array<std::array<float, 3>, 4> points{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const std::array<std::array<int, 3>, 4> faces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  const auto file_with = [&](float of_normal, float of_corner) {
+    std::string bytes(80, ' ');
+    const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    put(std::uint32_t{4});
+    for (const auto& face : faces) {
+      put(std::array<float, 3>{of_normal, 0, 0});
+      for (const int corner : face) {
+        auto point = points[corner];
+        if (corner == 3) point[1] += of_corner;
+        put(point);
+      }
+      put(std::uint16_t{0});
+    }
+    return bytes;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(refusal("nan.stl", file_with(0, nan)),
+              StartsWith("(must be a whole .stl mesh; it cannot be read: a corner of its triangle 2 is no number)"));
+  EXPECT_NEAR(total_volume(make_blocks<3>({body_with("tet.stl", file_with(nan, 0))})), 1.0 / 6, 1e-6) << "normals are not read";
 }
 
 TEST_F(MeshFiles, AnEmptyMeshIsRefused) {

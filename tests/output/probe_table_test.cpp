@@ -49,13 +49,13 @@ TEST_F(ProbeTableTest, ATableThatWasCutOrIsAnotherIsNotGoneOnWith) {
   for (const char* damaged : {"", "time,low\n0,1\n0.1,29", "time,low\n0,1\n0.2,3\n", "0,1\n0.1,2\n", "time,high\n0,1\n0.1,2\n",
                               "\x01junk\n0.1,2\n"}) {
     std::ofstream(file_) << damaged;
-    EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), RunError) << damaged;
+    EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), InputError) << damaged;
     EXPECT_EQ(content(file_), damaged);
   }
 }
 
 TEST_F(ProbeTableTest, ResumingWithoutATableFails) {
-  EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), RunError);
+  EXPECT_THROW(ProbeTable(file_, {}, {"low"}, 0.1), InputError);
 }
 
 TEST_F(ProbeTableTest, AFullDiskLeavesTheTableAsItWas) {

@@ -341,7 +341,7 @@ TEST_F(SeriesTest, ResumingADamagedSeriesSaysWhatIsMissing) {
   try {
     const Series resumed(folder_.path(), "heat", 1);
     FAIL();
-  } catch (const RunError& error) {
+  } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("names a frame that is missing (heat/heat_000000.vtu)"));
   }
 }
@@ -351,10 +351,10 @@ TEST_F(SeriesTest, ASeriesWithoutItsIndexOrItsLastFrameIsNotGoneOnWithAndStays) 
     Series series(folder_.path(), "heat");
     write_frames(series, {0, 1});
   }
-  EXPECT_THROW(Series(folder_.path(), "heat", 2), RunError);
+  EXPECT_THROW(Series(folder_.path(), "heat", 2), InputError);
   EXPECT_THAT(times_of(pvd_), ElementsAre(0, 1));
   fs::remove(pvd_);
-  EXPECT_THROW(Series(folder_.path(), "heat", 1), RunError);
+  EXPECT_THROW(Series(folder_.path(), "heat", 1), InputError);
   EXPECT_THAT(files_in(data_), ElementsAre("heat_000000.vtu", "heat_000001.vtu"));
 }
 

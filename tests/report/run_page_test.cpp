@@ -1,7 +1,10 @@
 // The page of a run without its pictures.
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/base/check.h"
 #include "tests/scenes/scene_run.h"
 #include "tools/report/run_report.h"
 
@@ -18,6 +21,15 @@ TEST(RunPage, TellsWhatToKnowBeforeUsingTheResultsAndNothingIfThereIsNothing) {
   const auto bare = test::run("hexahedra", test::fresh_directory("page_bare"), {"heat.initial=25"});
   const std::string html = run_page(run::RunFiles{bare.directory}, Pictures::none);
   EXPECT_THAT(html, HasSubstr(heading + "\n<p>suspicious: heat.initial is 25, which is in kelvin"));
+}
+
+TEST(RunPage, RefusesASummaryThatNoRunHasLeft) {
+  const auto directory = test::fresh_directory("page_of_no_run");
+  for (const char* summary : {R"({"status": "complete", "models": [], "heat": {}})", R"({"status": 1})",
+                              R"({"status": "complete", "settle": {"certificate": {}}})", R"({"status": "complete"})"}) {
+    std::ofstream(directory / "summary.json") << summary;
+    EXPECT_THROW(run_page(run::RunFiles{directory}, Pictures::none), InputError) << summary;
+  }
 }
 
 }  // namespace

@@ -88,5 +88,21 @@ TEST(Rest, ABlockThatFallsAtATenthOfAPercentOfGravityIsNotAtRest) {
   EXPECT_NEAR(packing.poses[last].translation.z(), -2.95, 1e-3);
 }
 
+// In weak gravity nothing gets far in a window that is long enough on the earth.
+TEST(Rest, ABlockThatSlidesOnAtATenthOfAPercentOfGravityIsNotAtRest) {
+  mesh::BlockMesh<3> mesh;
+  add_box(mesh, {4, 4, 0.1}, {0, 0, -0.05}, true);
+  for (int i = 0; i < 25; ++i) add_box(mesh, {0.05, 0.05, 0.05}, {0.1 * (i % 5) - 1.2, 0.1 * (i / 5), 0.025}, false);
+  add_box(mesh, {0.05, 0.05, 0.05}, {1, 0, 0.025}, false);
+  mesh.bodies[BodyId{mesh.bodies.size() - 1}].material = MaterialId{1};
+  SettleOptions options;
+  options.gravity = {0.002, 0, -0.01};
+  options.limit = 5;
+  Table<MaterialId, Material> materials = testing::material(0.6);
+  materials.push_back(testing::material(0)[MaterialId{0}]);
+  const packing::Packing<3> packing = settle(mesh, materials, options);
+  EXPECT_FALSE(packing.settled->at_rest) << packing.settled->criterion;
+}
+
 }  // namespace
 }  // namespace scree::rigid

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include <spawn.h>
@@ -9,7 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/files_together.h"
 #include "tests/scenes/scene_run.h"
+#include "tools/run/begin_results.h"
+#include "tools/scene/read_scene.h"
 
 extern char** environ;
 
@@ -100,6 +104,36 @@ TEST_P(Interruption, LeavesReadableFramesAndResumesToTheSameResult) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interruption, ::testing::Values(SIGINT, SIGTERM, SIGKILL));
+
+TEST(InterruptedRun, IsNotGoneOnFromByAnotherVersionWhichLeavesItAsItIs) {
+  const auto directory = fresh_directory("of_another_version");
+  ASSERT_EQ(wait_for(start(heat_in(directory))), 0);
+  nlohmann::json summary = nlohmann::json::parse(contents(directory / "summary.json"));
+  summary["version"] = "0.0.1";
+  const std::string probes = contents(directory / "probes.csv");
+  std::ofstream(directory / "summary.json") << summary.dump();
+  EXPECT_EQ(wait_for(start({"resume", directory.string()})), 2);
+  EXPECT_EQ(contents(directory / "summary.json"), summary.dump());
+  EXPECT_EQ(contents(directory / "probes.csv"), probes);
+}
+
+// Whatever ends the run before its first frames have their names.
+TEST(InterruptedRun, HasItsSceneAndThatItGoesOnUnderTheirNamesFromItsBeginning) {
+  const auto directory = fresh_directory("begun");
+  ASSERT_EQ(wait_for(start(heat_in(directory))), 0);
+  std::ofstream(directory / "heat.png") << "a picture";
+  const Scene scene = read_scene(directory / "scene.yaml", {"heat.until=1 h"});
+  Progress progress(ProgressMode::quiet);
+  run::RunContext context{.scene = scene, .files = {directory}, .progress = progress};
+  FilesTogether waiting;
+  const FilesTogether::Scope scope(waiting);
+  run::begin_results(context);
+  EXPECT_EQ(nlohmann::json::parse(contents(directory / "summary.json"))["status"], "running");
+  EXPECT_EQ(contents(directory / "scene.yaml"), scene.effective);
+  for (const char* gone : {"heat.pvd", "probes.csv", "heat.restart.h5", "heat.png"}) {
+    EXPECT_FALSE(std::filesystem::exists(directory / gone)) << gone;
+  }
+}
 
 }  // namespace
 }  // namespace scree::test

@@ -121,6 +121,18 @@ TEST_P(PassedOutputs, AreWithinTheTimeErrorWhereASpecificHeatKinks) {
   }
 }
 
+// A formula of place and time is looked at less often than one of time alone, and cannot be a table.
+TEST_P(PassedOutputs, AreNotPassedByAPulseAfterALongQuietThatTheyCouldShow) {
+  const HeatModel model = heated_pair(test::formula("300 + (200 + x)*exp(-((t/3600 - 703)/2)^2)"), 10);
+  TimeOptions options = two_hours(3600, GetParam());
+  options.until = 1000 * 3600.0;
+  HeatRun run(model, options);
+  run.advance_to(options.until);
+  EXPECT_TRUE(run.within_tolerance());
+  EXPECT_NEAR(run.state().reached.largest, 500, 10);
+  EXPECT_LT(run.state().steps, 500);
+}
+
 TEST_P(PassedOutputs, ARunThatGoesOnFromAStateRepeatsThemToTheBit) {
   const HeatModel model = heated_pair(400, 100);
   const TimeOptions options = two_hours(20, GetParam());

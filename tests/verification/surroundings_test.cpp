@@ -215,6 +215,40 @@ TEST(SteadyState, RadiationIsFoundFromFourToFourThousandKelvin) {
   }
 }
 
+// If all of its heat left by radiation, the body would be hotter than its conductivity is known for. It leaves by the base: by
+// Kirchhoff's transform 148 d - 0.07 d^2 = q L^2/2 for the rise d of the top.
+TEST(SteadyState, IsFoundWhereWhatRadiatesAloneWouldBeHotterThanAFormulaHolds) {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.01, 24, 24, 0.01)});
+  HeatOptions options = test::options_for(mesh, 300);
+  options.boundaries.push_back(test::hold(BodyId{0}, 0, 300, "base"));
+  options.boundaries.push_back(at(test::between_x(0.01, 0.01), Radiation{0.05, 300}, "top"));
+  options.sources.push_back({test::on(BodyId{0}, std::nullopt), 5e6, "power", {}});
+  Table<MaterialId, Material> silicon = material(1, 700, 2330);
+  silicon[MaterialId{0}].conductivity =
+      Curve::from_expression("190 - 0.14*T", std::get<UnitConverter>(unit_converter("", quantity::number)),
+                             {.key = "conductivity", .range = positive});
+  const HeatState steady = steady_state(make_heat_model(mesh, silicon, {}, options));
+  const double rise = (148 - std::sqrt(148.0 * 148 - 4 * 0.07 * 250)) / (2 * 0.07);
+  EXPECT_NEAR(value_at<2>(mesh, steady.temperature, {0.01, 0}), 300 + rise, 3e-3);
+}
+
+// Nothing is left after some hundred times its own time.
+TEST(Surroundings, ABodyThatHasCooledToZeroKelvinStaysThere) {
+  const auto mesh = test::slab_mesh<2>({test::bar<2>(0.1, 2, 1, 0.05)});
+  HeatOptions options = test::options_for(mesh, 300);
+  options.boundaries.push_back(at(test::between_x(0, 0), Convection{50, 0}, "space"));
+  Table<MaterialId, Material> ice = material(2, 900, 1000);
+  ice[MaterialId{0}].specific_heat = Curve::from_table(LinearTable({0, 300}, {100, 900}));
+  TimeOptions time;
+  time.integrator = Integrator::implicit;
+  time.until = 60 * 86400;
+  HeatRun run(make_heat_model(mesh, ice, {}, options), time);
+  run.advance_to(time.until);
+  EXPECT_TRUE(run.within_tolerance());
+  EXPECT_LT(run.state().temperature.cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(run.state().steps, 1000);
+}
+
 TEST(SteadyState, BlocksWithoutAPathToATemperatureAreNamedAndCounted) {
   auto far = test::bar<2>(0.1, 2, 1, 0.05);
   far.low[0] = 1;

@@ -23,25 +23,29 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-Json read_summary(const run::RunFiles& files) {
-  Json summary = Json::parse(text_of(files.summary()), nullptr, false);
-  if (!summary.is_discarded() && summary.contains("status")) return summary;
+InputError no_run(const run::RunFiles& files) {
   Problem problem;
   problem.key = "directory";
   problem.value = files.directory.string();
   problem.rule = "that of a run, with its summary.json";
   problem.suggestion = "Run the scene first";
-  throw InputError(problem);
+  return InputError(problem);
+}
+
+Json read_summary(const run::RunFiles& files) {
+  Json summary = Json::parse(text_of(files.summary()), nullptr, false);
+  if (summary.is_discarded() || !summary.contains("status")) throw no_run(files);
+  return summary;
 }
 
 void add_head(Page& page, const Json& summary) {
-  const auto status = summary["status"].get<std::string>();
+  const auto status = summary.at("status").get<std::string>();
   page.paragraph(fmt::format("<span class=\"status{}\">{}</span> {} by Scree {}", status == "complete" ? "" : " bad",
                              escaped(status), escaped(text(summary, "scene")), escaped(text(summary, "version"))));
   for (const Json& reason : summary.value("reasons", Json::array())) page.paragraph(escaped(reason.get<std::string>()));
   Rows facts;
   for (const char* key : {"blocks", "elements", "nodes"}) {
-    if (summary.contains(key)) facts.push_back({key, figure(summary[key].get<double>())});
+    if (summary.contains(key)) facts.push_back({key, figure(summary.at(key).get<double>())});
   }
   facts.push_back({"scene hash", escaped(text(summary, "scene_hash"))});
   page.facts(facts);
@@ -50,13 +54,13 @@ void add_head(Page& page, const Json& summary) {
 void add_remarks(Page& page, const Json& summary) {
   if (!summary.contains("remarks")) return;
   page.heading("To know before using it");
-  for (const Json& remark : summary["remarks"]) page.paragraph(escaped(remark.get<std::string>()));
+  for (const Json& remark : summary.at("remarks")) page.paragraph(escaped(remark.get<std::string>()));
 }
 
 void add_models(Page& page, const Json& summary, const run::RunFiles& files) {
   page.heading("What was modelled, and why");
   Rows rows{{"model", "reason"}};
-  for (const Json& model : summary["models"]) {
+  for (const Json& model : summary.at("models")) {
     rows.push_back({escaped(text(model, "name")), escaped(text(model, "reason"))});
   }
   page.table(rows);
@@ -110,12 +114,12 @@ void add_probes(Page& page, const run::RunFiles& files) {
 
 void add_ledger(Page& page, const Json& heat) {
   page.heading("Energy ledger");
-  const Json& ledger = heat["ledger"];
+  const Json& ledger = heat.at("ledger");
   const bool steady = heat.value("steady", false);
   Rows rows{{"heat into the blocks", steady ? "W" : "J"}};
   for (const auto& [kind, name] : {std::pair("by_boundary", "boundary"), std::pair("by_applied", "applied"),
                                    std::pair("by_surroundings", "surroundings")}) {
-    for (const auto& [key, value] : ledger[kind].items()) {
+    for (const auto& [key, value] : ledger.at(kind).items()) {
       rows.push_back({fmt::format("{}: {}", name, escaped(key)), figure(value.get<double>())});
     }
   }
@@ -136,10 +140,10 @@ void add_errors(Page& page, const Json& heat) {
                     "tolerance " + figure(number(heat, "tolerance")) + " K"});
   }
   if (heat.contains("space_error")) {
-    rows.push_back({"mesh, estimated, largest of an element", figure(number(heat["space_error"], "largest")) + " K", ""});
+    rows.push_back({"mesh, estimated, largest of an element", figure(number(heat.at("space_error"), "largest")) + " K", ""});
   }
   if (heat.contains("lumped_blocks")) {
-    const Json& lumped = heat["lumped_blocks"];
+    const Json& lumped = heat.at("lumped_blocks");
     rows.push_back({"one temperature in " + figure(number(lumped, "count")) + " blocks, estimated",
                     figure(number(lumped, "error")) + " K", "Biot numbers up to " + figure(number(lumped, "largest_biot"))});
   }
@@ -157,11 +161,11 @@ void add_errors(Page& page, const Json& heat) {
 }
 
 void add_joints(Page& page, const Json& summary) {
-  if (!summary.contains("joints") || summary["joints"].empty()) return;
+  if (!summary.contains("joints") || summary.at("joints").empty()) return;
   page.heading("Joints");
   Rows rows{
       {"between", "law", "contacts", "h [W/m2/K]", "Biot", "net flow [W]", "all flows [W]", "touching [m2]", "overlap [m2]"}};
-  for (const Json& joint : summary["joints"]) {
+  for (const Json& joint : summary.at("joints")) {
     const double contacts = number(joint, "point_face") + number(joint, "edge_edge") + number(joint, "overlap");
     rows.push_back({escaped(text(joint, "first") + " - " + text(joint, "second")), escaped(text(joint, "law")),
                     figure(contacts), value_or(joint, "joint_conductance", "no end"), value_or(joint, "biot", "-"),
@@ -175,7 +179,7 @@ void add_effective(Page& page, const Json& summary) {
   if (!summary.contains("effective_conductivity")) return;
   page.heading("Effective conductivity");
   Rows rows;
-  for (const auto& [key, value] : summary["effective_conductivity"].items()) {
+  for (const auto& [key, value] : summary.at("effective_conductivity").items()) {
     rows.push_back({escaped(key), escaped(value.dump())});
   }
   page.facts(rows);
@@ -196,10 +200,7 @@ void add_stages(Page& page, const Json& summary) {
   page.table(rows);
 }
 
-}  // namespace
-
-std::string run_page(const run::RunFiles& files, Pictures pictures) {
-  const Json summary = read_summary(files);
+std::string page_of(const Json& summary, const run::RunFiles& files, Pictures pictures) {
   const std::string title = text(summary, "title");
   Page page(title.empty() ? files.directory.filename().string() : title);
   add_head(page, summary);
@@ -207,15 +208,25 @@ std::string run_page(const run::RunFiles& files, Pictures pictures) {
   add_models(page, summary, files);
   add_pictures(page, summary, files, pictures);
   add_probes(page, files);
-  if (summary.contains("settle")) add_settle(page, summary["settle"]);
+  if (summary.contains("settle")) add_settle(page, summary.at("settle"));
   if (summary.contains("heat")) {
-    add_ledger(page, summary["heat"]);
-    add_errors(page, summary["heat"]);
+    add_ledger(page, summary.at("heat"));
+    add_errors(page, summary.at("heat"));
   }
   add_joints(page, summary);
   add_effective(page, summary);
   add_stages(page, summary);
   return page.html();
+}
+
+}  // namespace
+
+std::string run_page(const run::RunFiles& files, Pictures pictures) {
+  try {
+    return page_of(read_summary(files), files, pictures);
+  } catch (const Json::exception&) {
+    throw no_run(files);  // of which nobody knows what its summary says
+  }
 }
 
 }  // namespace scree::report

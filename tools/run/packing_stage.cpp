@@ -121,9 +121,9 @@ PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks,
   if (packing::stored_key(context.files.packing()) == key) {
     if (auto earlier = earlier_packing(context)) return {*std::move(earlier), true};
   }
+  begin_results(context);
   std::error_code ignored;
   std::filesystem::remove(context.files.packing(), ignored);  // of another scene
-  begin_results(context);
   auto packing = context.stage("settle", fmt::format("{} of {} blocks fall", free_blocks(blocks), blocks.blocks.size()),
                                [&] { return settle(context, blocks); });
   return {std::move(packing), false};

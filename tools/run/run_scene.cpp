@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/version.h"
 #include "tools/run/begin_results.h"
 #include "tools/run/certificate.h"
 #include "tools/run/claim.h"
@@ -24,11 +25,32 @@ struct Ending {
   std::vector<std::string> reasons;  // why the code is not 0
 };
 
+// What a run has left, or an empty object.
+Json earlier_summary(const RunFiles& files) {
+  std::ifstream stream(files.summary());
+  Json summary = Json::parse(stream, nullptr, false);
+  return summary.is_object() ? summary : Json::object();
+}
+
 // A run that goes on estimates what it did before.
 bool was_estimated(const RunFiles& files) {
-  std::ifstream stream(files.summary());
-  const Json summary = Json::parse(stream, nullptr, false);
-  return summary.is_object() && summary.value("error_estimate", false);
+  const Json summary = earlier_summary(files);
+  const auto estimated = summary.find("error_estimate");
+  return estimated != summary.end() && *estimated == true;
+}
+
+// States and packings are taken by the version that has left them alone: another would settle the blocks once more, in place of
+// those that it could not go on with.
+void refuse_other_version(const RunFiles& files) {
+  const Json summary = earlier_summary(files);
+  const auto found = summary.find("version");
+  if (found == summary.end() || *found == std::string(version())) return;
+  Problem problem;
+  problem.key = "directory";
+  problem.value = files.directory.string();
+  problem.rule = fmt::format("must be that of a run by this version, {}; it is by {}", version(), found->dump());
+  problem.suggestion = "Resume it by that version, or run its scene again";
+  throw InputError(problem);
 }
 
 void say_models(const Scene& scene, Progress& progress) {
@@ -120,7 +142,11 @@ void write_last_files(RunContext& context, Json& summary, Ending& ending) {
 // The directory, for this run alone. What keeps the run out of it ends it, for whoever reads its events, too.
 Claim claim_directory(const Scene& scene, const RunFiles& files, Start start, Progress& progress) {
   try {
-    if (start == Start::fresh) refuse_own_inputs(scene, files);
+    if (start == Start::fresh) {
+      refuse_own_inputs(scene, files);
+    } else {
+      refuse_other_version(files);
+    }
     return Claim(files);
   } catch (const InputError& error) {
     progress.end({"bad_input", 2, "", {error.what()}});

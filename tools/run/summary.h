@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 // What a summary says before anything is known: that the run goes on, the program, the scene.
 Json opening_summary(const RunContext& context);
 
+std::string text_of(const Json& summary);  // as its file
+
 void write_summary(const RunFiles& files, const Json& summary);
 
 template <int dim>

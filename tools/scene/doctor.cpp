@@ -83,7 +83,7 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   }
   if (!scene.settle && scene.effective_window) append(sentences, window_beyond_blocks(mesh, *scene.effective_window));
   if (scene.packing) return report;  // the run that made it has judged how the blocks lie
-  append(sentences, overlapping_bodies(mesh, scene.settle.has_value()));
+  append(sentences, overlapping_bodies(mesh, scene.settle && !scene.heat));
   if constexpr (dim == 3) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/base/plain_path.h"
 #include "tools/scene/keys.h"
 #include "tools/scene/sections.h"
 #include "tools/scene/suspicions.h"
@@ -43,7 +44,7 @@ void collect_tables(const Checked& checked, std::vector<std::filesystem::path>& 
 void make_paths_absolute(Checked& checked, const std::filesystem::path& folder) {
   if (names_a_file(checked)) {
     const std::filesystem::path base = checked.where.line == 0 ? std::filesystem::current_path() : folder;
-    checked.text = (base / checked.text).lexically_normal().string();
+    checked.text = plain_path(base / checked.text).string();
   }
   for (CheckedEntry& entry : checked.entries) make_paths_absolute(entry.value, folder);
   for (Checked& item : checked.items) make_paths_absolute(item, folder);

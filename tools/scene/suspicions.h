@@ -30,7 +30,7 @@ Sentences too_many_outputs(const Scene& scene);
 // Blocks of different bodies that lie in each other before anything moves. Where something falls, fixed ones may: the walls of
 // a box meet in its corners. Where nothing does, what they share is heated twice.
 template <int dim>
-Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh, bool falls);
+Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh, bool only_free);
 
 // Free blocks with no fixed block below them, as gravity goes.
 Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity);

@@ -87,9 +87,9 @@ Shadow shadow_of(const mesh::BlockMesh<3>& mesh, BlockId block, const Eigen::Mat
 
 // The deepest pair only: the others are of its kind, and mending the scene shows the next.
 template <>
-Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh, bool falls) {
+Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh, bool only_free) {
   const double edge = mesh::mean_edge(mesh);
-  const packing::Pairs pairs = falls ? packing::Pairs::with_a_free_block : packing::Pairs::all;
+  const packing::Pairs pairs = only_free ? packing::Pairs::with_a_free_block : packing::Pairs::all;
   const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge, {}, pairs);
   if (deepest.max <= rounding * edge) return {};
   return {overlap_sentence(mesh, deepest.first, deepest.second, fmt::format(" by {:.3g} m", deepest.max))};

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "engine/base/input.h"
+#include "engine/base/plain_path.h"
 
 namespace scree::study {
 
@@ -17,7 +18,7 @@ bool names_file(const Key* key) {
 }
 
 std::string in_folder(const fs::path& folder, const std::string& file) {
-  return (folder / file).lexically_normal().string();
+  return plain_path(folder / file).string();
 }
 
 // Whether there are any.
@@ -62,6 +63,13 @@ void write(const InputValue& value, YAML::Emitter& out) {
   }
 }
 
+// A path may be what YAML takes for something else, as `run #3`.
+std::string quoted(const std::string& text) {
+  YAML::Emitter out;
+  out << YAML::DoubleQuoted << text;
+  return out.c_str();
+}
+
 std::string to_flow(const InputValue& value) {
   YAML::Emitter out;
   out.SetSeqFormat(YAML::Flow);
@@ -74,7 +82,9 @@ std::string to_flow(const InputValue& value) {
 
 std::string with_files_in(const fs::path& folder, const KeyNode& node, const std::string& value) {
   if (value == "null") return value;
-  if (!value.starts_with('{') && !value.starts_with('[')) return names_file(node.key) ? in_folder(folder, value) : value;
+  if (!value.starts_with('{') && !value.starts_with('[')) {
+    return names_file(node.key) ? quoted(in_folder(folder, value)) : value;
+  }
   try {
     InputValue parsed = parse_yaml(value, "");
     return put_files_in(folder, node, parsed) ? to_flow(parsed) : value;

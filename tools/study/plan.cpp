@@ -78,10 +78,10 @@ bool starts_with_part(const std::string& path, const std::string& part) {
 void check_reports(const Study& study, const Scene& scene, Complaints& complaints) {
   std::vector<std::string> probes;
   for (const auto& probe : scene.probes) probes.push_back(probe.name);
-  const std::vector<std::string> parts{"status",        "version", "title",  "models",     "blocks",
-                                       "elements",      "nodes",   "settle", "contacts",   "joints",
-                                       "heat",          "stages",  "scene",  "scene_hash", "effective_conductivity",
-                                       "error_estimate"};
+  const std::vector<std::string> parts{"status",         "version", "title",  "models",     "blocks",
+                                       "elements",       "nodes",   "settle", "contacts",   "joints",
+                                       "heat",           "stages",  "scene",  "scene_hash", "effective_conductivity",
+                                       "error_estimate", "remarks"};
   for (const Report& report : study.reports) {
     const std::string heat_probe = "heat.probes.";
     std::string probe = report.probe;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/checked_input.h"
+#include "engine/base/plain_path.h"
 #include "tools/scene/suspicions.h"
 #include "tools/study/design.h"
 #include "tools/study/given_keys.h"
@@ -28,7 +29,7 @@ class Reader {
   Study read(const Checked& root) {
     Study study;
     study.file = file_;
-    study.scene = (folder() / root.at("scene").text).lexically_normal();
+    study.scene = plain_path(folder() / root.at("scene").text);
     std::error_code ignored;
     if (root.at("scene").sound && !fs::is_regular_file(study.scene, ignored)) {
       refuse(root.at("scene"), "must be a scene file that exists");

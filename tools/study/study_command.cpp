@@ -44,6 +44,8 @@ Table write_tables(const Study& study, const std::vector<PlannedRun>& runs, cons
     const Table ensembles = ensembles_of(study, table);
     write_text(files.ensembles(), to_csv(ensembles));
     write_hdf5(ensembles, files.ensembles_hdf5());
+  } else {
+    for (const fs::path& earlier : {files.ensembles(), files.ensembles_hdf5()}) fs::remove(earlier);
   }
   return table;
 }
