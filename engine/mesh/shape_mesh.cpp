@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <type_traits>
@@ -266,6 +267,11 @@ SimplexMesh<dim> mesh_shape(const BodySpec& body) {
   } catch (const GmshFailure& failure) {
     throw body_error(body, "", "", fmt::format("Gmsh could not mesh it: {}", failure.reason), "Try another mesh_size");
   }
+}
+
+double largest_length(const Shape& shape) {
+  if (std::holds_alternative<MeshFile>(shape)) return std::numeric_limits<double>::infinity();
+  return std::visit([](const auto& one) { return lengths<3>(one).largest; }, shape);
 }
 
 template SimplexMesh<2> mesh_shape<2>(const BodySpec&);

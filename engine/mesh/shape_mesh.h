@@ -12,4 +12,7 @@ namespace scree::mesh {
 template <int dim>
 SimplexMesh<dim> mesh_shape(const BodySpec& body);
 
+// Of the box, the sphere or the cylinder [m], beyond which a mesh size makes nothing coarser; infinite for a file.
+double largest_length(const Shape& shape);
+
 }  // namespace scree::mesh

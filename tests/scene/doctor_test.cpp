@@ -74,13 +74,14 @@ TEST(Doctor, FindsBodiesThatOverlap) {
   EXPECT_THAT(report_of(cubes({"[0, 0, 0]"}, {"[0.2, 0.1, 1]"}) + "settle:\n").suspicious, IsEmpty());
 }
 
-// The walls of a box may; what is heated where nothing falls is there twice.
-TEST(Doctor, FindsFixedBodiesThatOverlapWhereNothingFalls) {
+// The walls of a box may; what is heated is there twice.
+TEST(Doctor, FindsFixedBodiesThatOverlapWhereThereIsHeat) {
   const auto both = cubes({"[0, 0, 0]", "[0.2, 0.1, 0.9]"}, {});
   const std::string overlap = "block 0 of body c0 and block 1 of body c1 overlap by 0.1 m before anything moves";
   EXPECT_THAT(report_of(both + heat).suspicious, testing::Contains(overlap));
   const auto walls = cubes({"[0, 0, 0]", "[0.2, 0.1, 0.9]"}, {"[0, 0, 3]"});
   EXPECT_THAT(report_of(walls + "settle:\n").suspicious, IsEmpty());
+  EXPECT_THAT(report_of(walls + heat + "settle:\n").suspicious, testing::Contains(overlap));
 }
 
 TEST(Doctor, FindsBodiesThatOverlapInThePlane) {
@@ -93,6 +94,17 @@ TEST(Doctor, FindsBodiesThatOverlapInThePlane) {
   EXPECT_THAT(report_of<2>(squares("[0.9, 0.3]")).suspicious,
               testing::Contains("block 0 of body c0 and block 1 of body c1 overlap before anything moves"));
   EXPECT_THAT(report_of<2>(squares("[1, 0.3]")).suspicious, IsEmpty());
+  EXPECT_THAT(report_of<2>(squares("[0, 0]")).suspicious,
+              testing::Contains("block 0 of body c0 and block 1 of body c1 overlap before anything moves"))
+      << "one in the other's place";
+  const auto copies = [](const std::string& second) {
+    return "dimension: 2\nmaterials: {a: {density: 1, conductivity: 1, specific_heat: 1}}\nbodies:\n"
+           "  c: {box: {size: [1, 1]}, at: [{position: [0, 0]}, {position: " +
+           second +
+           "}], material: a, mesh_size: 0.5, blocks: per_element}\nheat: {initial: 300, until: 1}\noutput: {every: 1}\n";
+  };
+  EXPECT_THAT(report_of<2>(copies("[0.9, 0.3]")).suspicious, testing::Contains(testing::HasSubstr("of body c overlap")));
+  EXPECT_THAT(report_of<2>(copies("[1, 0.3]")).suspicious, IsEmpty());
 }
 
 TEST(Doctor, FindsWhatNothingCanStop) {

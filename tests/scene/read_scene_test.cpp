@@ -193,6 +193,9 @@ TEST(ReadScene, ASeedStartsFreeBodiesAsideAcrossGravityAndNeverFarther) {
   EXPECT_EQ(way.z(), 0);
   EXPECT_GT(way.norm(), 0);
   EXPECT_LE(way.cwiseAbs().maxCoeff(), 1e-3 * one.bodies[1].mesh_size * (1 + 1e-9));
+  const Scene coarse = scene_of(whole_scene, {"settle.seed=1", "bodies.block.mesh_size=50 m"});
+  const Scene as_large = scene_of(whole_scene, {"settle.seed=1", "bodies.block.mesh_size=40 cm"});
+  EXPECT_EQ(place(coarse, 1), place(as_large, 1)) << "a mesh size beyond the body is the body's";
 }
 
 }  // namespace

@@ -48,8 +48,6 @@ void remove_earlier(const RunContext& context) {
 // The names of this run before anything of an earlier one is gone, whenever it is killed: first that it goes on, as a scene
 // without a summary is none that a run has left (own_inputs.h).
 void name_at_once(const RunFiles& files, const std::string& summary, const std::string& scene) {
-  std::error_code not_there;
-  std::filesystem::remove(files.scene(), not_there);  // of another summary
   write_unflushed(files.summary(), summary);
   write_unflushed(files.scene(), scene);
 }

@@ -1,12 +1,15 @@
 // A pile's packing hangs on the last digits of where it starts: a seed moves them, and makes an ensemble of piles.
+#include <algorithm>
+
 #include "engine/mesh/random_numbers.h"
+#include "engine/mesh/shape_mesh.h"
 #include "tools/scene/sections.h"
 
 namespace scree {
 
 namespace {
 
-constexpr double farthest = 1e-3;  // of the mesh size: far above rounding, far below what anyone measures
+constexpr double farthest = 1e-3;  // of the mesh size, or the body: far above rounding, far below what anyone measures
 
 void move(mesh::AtPoses& at, const Eigen::Vector3d& way) {
   for (Pose& pose : at.poses) pose.translation += way;
@@ -30,7 +33,8 @@ void start_aside(const SettleStage& settle, std::vector<mesh::BodySpec>& bodies)
   for (mesh::BodySpec& body : bodies) {
     if (body.fixed) continue;
     Eigen::Vector3d way;
-    for (double& component : way) component = farthest * body.mesh_size * random.between(-1, 1);
+    const double size = std::min(body.mesh_size, mesh::largest_length(body.shape));
+    for (double& component : way) component = farthest * size * random.between(-1, 1);
     // Across gravity, so that bodies placed on each other start no deeper in each other.
     way -= down * down.dot(way);
     std::visit([&](auto& arrangement) { move(arrangement, way); }, body.arrangement);

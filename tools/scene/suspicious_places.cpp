@@ -36,22 +36,34 @@ std::string overlap_sentence(const auto& mesh, BlockId a, BlockId b, const std::
 // Blocks that only touch overlap by rounding.
 constexpr double rounding = 1e-6;  // of the mean edge, of an element in barycentric coordinates, or of the extent of all blocks
 
-// Whether a node of block `a` lies inside an element of block `b`.
+// Nodes of a block, and middles of its elements, which tell where all nodes lie on each other.
+std::vector<Eigen::Vector2d> points_of(const mesh::BlockMesh<2>& mesh, BlockId block) {
+  std::vector<Eigen::Vector2d> points;
+  for (const NodeId node : mesh.blocks[block].nodes) points.push_back(mesh.nodes[node]);
+  for (const ElementId element : mesh.blocks[block].elements) {
+    const auto& corners = mesh.elements[element];
+    points.push_back((mesh.nodes[corners[0]] + mesh.nodes[corners[1]] + mesh.nodes[corners[2]]) / 3);
+  }
+  return points;
+}
+
+// Whether one of these points of block `a` lies inside an element of block `b`.
 bool reaches_into(const mesh::BlockMesh<2>& mesh, BlockId a, BlockId b) {
+  const std::vector<Eigen::Vector2d> points = points_of(mesh, a);
   for (const ElementId element : mesh.blocks[b].elements) {
     const auto& corners = mesh.elements[element];
     Eigen::Matrix2d edges;
     edges << mesh.nodes[corners[1]] - mesh.nodes[corners[0]], mesh.nodes[corners[2]] - mesh.nodes[corners[0]];
     const Eigen::Matrix2d inverse = edges.inverse();
-    for (const NodeId node : mesh.blocks[a].nodes) {
-      const Eigen::Vector2d w = inverse * (mesh.nodes[node] - mesh.nodes[corners[0]]);
+    for (const Eigen::Vector2d& point : points) {
+      const Eigen::Vector2d w = inverse * (point - mesh.nodes[corners[0]]);
       if (w.minCoeff() > rounding && w.sum() < 1 - rounding) return true;
     }
   }
   return false;
 }
 
-// Pairs of blocks of different bodies, by boxes sorted along x.
+// Pairs of blocks, by boxes sorted along x.
 std::vector<std::pair<BlockId, BlockId>> near_pairs(const mesh::BlockMesh<2>& mesh) {
   const Boxes<2> boxes = block_boxes(mesh);
   std::vector<BlockId> order;
@@ -60,8 +72,7 @@ std::vector<std::pair<BlockId, BlockId>> near_pairs(const mesh::BlockMesh<2>& me
   std::vector<std::pair<BlockId, BlockId>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min().x() < boxes[order[i]].max().x(); ++j) {
-      const bool same_body = mesh.blocks[order[i]].body == mesh.blocks[order[j]].body;
-      if (!same_body && boxes[order[i]].intersects(boxes[order[j]])) pairs.emplace_back(order[i], order[j]);
+      if (boxes[order[i]].intersects(boxes[order[j]])) pairs.emplace_back(order[i], order[j]);
     }
   }
   return pairs;
@@ -95,7 +106,7 @@ Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh, bool only_free) {
   return {overlap_sentence(mesh, deepest.first, deepest.second, fmt::format(" by {:.3g} m", deepest.max))};
 }
 
-// Found by nodes inside elements: two slim blocks that cross without holding each other's nodes are missed.
+// Found by points inside elements: two slim blocks that cross without holding each other's nodes are missed.
 template <>
 Sentences overlapping_bodies(const mesh::BlockMesh<2>& mesh, bool) {
   for (const auto& [a, b] : near_pairs(mesh)) {
