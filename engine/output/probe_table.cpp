@@ -12,6 +12,7 @@
 #include "engine/base/check.h"
 #include "engine/base/csv.h"
 #include "engine/base/plain_number.h"
+#include "engine/output/not_as_left.h"
 
 namespace scree::output {
 
@@ -28,20 +29,10 @@ std::string head(const std::vector<std::string>& comments, const std::vector<std
   return text + '\n';
 }
 
-// A run cannot go on with what is not as it left it.
-InputError damaged(const std::filesystem::path& file, const std::string& rule) {
-  Problem problem;
-  problem.key = "probes";
-  problem.value = file.string();
-  problem.rule = rule;
-  problem.suggestion = "Run the scene again";
-  return InputError(problem);
-}
-
 // The whole lines of a file. One that ends with the file instead of a newline was not finished; getline then reports the end.
 std::vector<std::string> finished_lines(const std::filesystem::path& file) {
   std::ifstream old(file, std::ios::binary);
-  if (!old) throw damaged(file, fmt::format("must be a file that can be read ({})", std::strerror(errno)));
+  if (!old) throw not_as_left("probes", file, fmt::format("must be a file that can be read ({})", std::strerror(errno)));
   std::vector<std::string> lines;
   for (std::string line; std::getline(old, line) && !old.eof();) lines.push_back(line + '\n');
   return lines;
@@ -80,7 +71,8 @@ ProbeTable::ProbeTable(std::filesystem::path file, const std::vector<std::string
     text += line;
   }
   if (!text.starts_with(first) || last != keep_until) {
-    throw damaged(file_, fmt::format("must have its head and its row at {} s, from where the run would go on", keep_until));
+    throw not_as_left("probes", file_,
+                      fmt::format("must have its head and its row at {} s, from where the run would go on", keep_until));
   }
   write_text(file_, text);
 }

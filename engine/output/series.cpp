@@ -7,6 +7,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "engine/base/check.h"
+#include "engine/output/not_as_left.h"
 
 namespace scree::output {
 
@@ -22,21 +23,11 @@ void remove_frames(const fs::path& folder, const std::string& name, const std::s
   }
 }
 
-// A run cannot go on with what is not as it left it.
-InputError damaged(const fs::path& index, const std::string& rule) {
-  Problem problem;
-  problem.key = "series";
-  problem.value = index.string();
-  problem.rule = rule;
-  problem.suggestion = "Run the scene again";
-  return InputError(problem);
-}
-
 std::vector<SeriesEntry> earlier_entries(const fs::path& index) {
   try {
     return read_index(index);
   } catch (const RunError& error) {
-    throw damaged(index, fmt::format("must be the series that the run has left; {}", error.what()));
+    throw not_as_left("series", index, fmt::format("must be the series that the run has left; {}", error.what()));
   }
 }
 
@@ -67,7 +58,8 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
         entries_.push_back(std::move(entry));
       }
       if (entries_.empty() || entries_.back().time != *keep_until) {
-        throw damaged(index_, fmt::format("must have a frame at {} s, from where the run would go on", *keep_until));
+        throw not_as_left("series", index_,
+                          fmt::format("must have a frame at {} s, from where the run would go on", *keep_until));
       }
     }
     // The index goes first, so that it never names a file that is gone.

@@ -61,7 +61,6 @@ PYBIND11_MODULE(scree, module) {
       py::arg("count"),
       "What this thread of Python calls from here on computes with so many threads. No result depends on it.");
   // Threads that make their first array at the same time would wait for each other for ever.
-  py::module_::import("numpy");
   py::detail::npy_api::get();
   // The threads of OpenMP do not come along, and it would wait for them.
   pthread_atfork(nullptr, nullptr, [] { scree::use_threads(1); });

@@ -27,8 +27,8 @@ std::optional<std::string> bare_value(const std::string& path, const std::string
 Sentences too_many_frames_of_a_fall(const Scene& scene);
 Sentences too_many_outputs(const Scene& scene);
 
-// Blocks of different bodies that lie in each other before anything moves. Where something falls, fixed ones may: the walls of
-// a box meet in its corners. Where nothing does, what they share is heated twice.
+// Blocks that lie in each other before anything moves; with `only_free` no two fixed ones: the walls of a box meet in its
+// corners. Where there is heat, what they share is heated twice.
 template <int dim>
 Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh, bool only_free);
 

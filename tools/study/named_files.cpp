@@ -63,13 +63,6 @@ void write(const InputValue& value, YAML::Emitter& out) {
   }
 }
 
-// A path may be what YAML takes for something else, as `run #3`.
-std::string quoted(const std::string& text) {
-  YAML::Emitter out;
-  out << YAML::DoubleQuoted << text;
-  return out.c_str();
-}
-
 std::string to_flow(const InputValue& value) {
   YAML::Emitter out;
   out.SetSeqFormat(YAML::Flow);
@@ -82,11 +75,11 @@ std::string to_flow(const InputValue& value) {
 
 std::string with_files_in(const fs::path& folder, const KeyNode& node, const std::string& value) {
   if (value == "null") return value;
-  if (!value.starts_with('{') && !value.starts_with('[')) {
-    return names_file(node.key) ? quoted(in_folder(folder, value)) : value;
-  }
+  const bool is_flow = value.starts_with('{') || value.starts_with('[');
   try {
-    InputValue parsed = parse_yaml(value, "");
+    // A path alone may be what YAML takes for something else, as `run #3`.
+    InputValue parsed =
+        is_flow ? parse_yaml(value, "") : InputValue{.kind = Kind::scalar, .where = {}, .text = value, .entries = {}};
     return put_files_in(folder, node, parsed) ? to_flow(parsed) : value;
   } catch (const InputError&) {
     return value;
