@@ -18,7 +18,7 @@ void keep_hdf5_quiet() {
 
 Hdf5Handle hdf5_text_type(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a type of texts");
-  hdf5_expect(H5Tset_size(type.id(), size == 0 ? H5T_VARIABLE : size) >= 0, "a type of texts");
+  hdf5_expect(H5Tset_size(type.id(), size) >= 0, "a type of texts");
   return type;
 }
 

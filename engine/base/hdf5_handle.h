@@ -45,7 +45,7 @@ void hdf5_expect(bool holds, const std::string& what);
 // HDF5 prints nothing from here on: what is wrong is thrown.
 void keep_hdf5_quiet();
 
-// The type of texts of so many characters; of as many as there are for 0.
-Hdf5Handle hdf5_text_type(std::size_t size = 0);
+// The type of texts of so many characters.
+Hdf5Handle hdf5_text_type(std::size_t size);
 
 }  // namespace scree

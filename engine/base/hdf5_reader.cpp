@@ -1,7 +1,5 @@
 #include "engine/base/hdf5_reader.h"
 
-#include <algorithm>
-
 #include <hdf5.h>
 
 namespace scree {
@@ -51,30 +49,6 @@ std::vector<T> numbers(const Hdf5Handle& file, const std::string& name, hid_t ty
   return values;
 }
 
-std::vector<std::string> texts_in_rows(const Hdf5Handle& set, const Hdf5Handle& type, std::size_t count,
-                                       const std::string& name) {
-  const std::size_t width = H5Tget_size(type.id());
-  hdf5_expect(width > 0 && static_cast<double>(width) * static_cast<double>(count) <= most_bytes(set), name);
-  std::string rows(width * count, '\0');
-  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0, name);
-  std::vector<std::string> values(count);
-  for (std::size_t i = 0; i < count; ++i) values[i] = rows.substr(width * i, width).c_str();
-  return values;
-}
-
-// As earlier versions of this program wrote them.
-std::vector<std::string> texts_elsewhere(const Hdf5Handle& set, std::size_t count, const std::string& name) {
-  std::vector<char*> starts(count);
-  const Hdf5Handle type = hdf5_text_type();
-  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, starts.data()) >= 0, name);
-  const bool all_there = std::find(starts.begin(), starts.end(), nullptr) == starts.end();
-  std::vector<std::string> values;
-  if (all_there) values.assign(starts.begin(), starts.end());
-  H5Dvlen_reclaim(type.id(), space_of(set, name).id(), H5P_DEFAULT, starts.data());
-  hdf5_expect(all_there, name);
-  return values;
-}
-
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : file_(opened(file)) {}
@@ -110,9 +84,15 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
   const Hdf5Handle set = set_of(file_, name);
   const std::size_t count = size_of(set, space_of(set, name), name);
   const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose, name);
-  hdf5_expect(H5Tget_class(type.id()) == H5T_STRING, name);
+  hdf5_expect(H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0, name);
   if (count == 0) return {};
-  return H5Tis_variable_str(type.id()) > 0 ? texts_elsewhere(set, count, name) : texts_in_rows(set, type, count, name);
+  const std::size_t width = H5Tget_size(type.id());
+  hdf5_expect(width > 0 && static_cast<double>(width) * static_cast<double>(count) <= most_bytes(set), name);
+  std::string rows(width * count, '\0');
+  hdf5_expect(H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0, name);
+  std::vector<std::string> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = rows.substr(width * i, width).c_str();
+  return values;
 }
 
 bool Hdf5Reader::holds_texts(const std::string& name) const {

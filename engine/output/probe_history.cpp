@@ -63,6 +63,14 @@ ProbeHistory read_probe_history(const std::filesystem::path& file) {
   return history;
 }
 
+ProbeHistory read_probe_history(const std::filesystem::path& file, double end) {
+  ProbeHistory history = read_probe_history(file);
+  if (history.times.empty() || history.times.back() != end) {
+    throw RunError(fmt::format("{}: is damaged: it ends before its run did. Run the scene again", file.string()));
+  }
+  return history;
+}
+
 std::size_t first_compared(const ProbeHistory& history) {
   return history.times.size() > 1 ? 1 : 0;
 }

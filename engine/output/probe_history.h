@@ -15,8 +15,10 @@ struct ProbeHistory {
   std::map<std::string, std::vector<double>> exact;   // by probe, of those whose exact value is known
 };
 
-// Throws InputError if there is no such table.
+// Throws InputError if there is no such table, RunError if it is damaged.
 ProbeHistory read_probe_history(const std::filesystem::path& file);
+// ... of a run that came to its end at `end` [s]: a table that ends before lacks what may have been reached there.
+ProbeHistory read_probe_history(const std::filesystem::path& file, double end);
 
 // The row a comparison begins with: the start, given and not computed, says nothing of a run in time.
 [[nodiscard]] std::size_t first_compared(const ProbeHistory& history);

@@ -9,6 +9,7 @@ namespace scree::packing {
 
 struct Part {
   BlockId block;
+  BodyId body;
   bool fixed = false;
   PlacedPiece placed;
   Aabb<3> box;
@@ -17,6 +18,7 @@ struct Part {
 // The pieces of a mesh and where they are; `parts` point into `pieces`, so that a copy would point into the original.
 struct PieceSet {
   explicit PieceSet(const mesh::BlockMesh<3>& placed_mesh);
+  PieceSet(const mesh::BlockMesh<3>& placed_mesh, const std::vector<BlockId>& blocks);  // of these only
   PieceSet(const PieceSet&) = delete;
   PieceSet& operator=(const PieceSet&) = delete;
 
@@ -24,10 +26,9 @@ struct PieceSet {
   std::vector<Part> parts;  // in the order of the blocks
 };
 
-enum class Pairs { with_a_free_block, all };
+enum class Pairs { with_a_free_block, all, of_different_bodies };
 
-// Two parts of different blocks, with boxes nearer than `range` [m]: sorted along the axis on which they spread most, each is
-// compared with those that begin before it ends.
+// Two parts of different blocks, with boxes nearer than `range` [m], in no order that means anything.
 std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range,
                                                             Pairs asked = Pairs::with_a_free_block);
 

@@ -20,8 +20,7 @@ namespace scree::packing {
 namespace {
 
 constexpr const char* format_name = "scree packing";
-constexpr std::int64_t format_version = 7;  // texts in rows
-constexpr std::int64_t oldest_version = 5;  // says nothing of what bodies were made from
+constexpr std::int64_t format_version = 7;
 
 // The numbers of a report, in the order of the file.
 constexpr std::array report_numbers{&SettleReport::simulated_time,
@@ -45,7 +44,7 @@ struct Lists {
   std::vector<std::int64_t> cells;                              // rows of kind and 8 nodes, -1 for one it does not have
   std::vector<std::int64_t> surfaces, surface_bodies;           // rows of dim nodes and the surface, 1
   std::vector<std::string> texts;      // the names of the bodies, of the surfaces, then the criterion, if any
-  std::vector<std::string> made_from;  // one per body; empty if nobody knows
+  std::vector<std::string> made_from;  // one per body
 };
 
 template <int dim>
@@ -74,9 +73,6 @@ Lists pack(const Packing<dim>& packing) {
     lists.made_from.push_back(body.made_from);
     lists.bodies.insert(lists.bodies.end(), {body.material.value(), body.fixed ? 1 : 0});
     lists.velocities.insert(lists.velocities.end(), body.velocity.begin(), body.velocity.end());
-  }
-  if (std::all_of(lists.made_from.begin(), lists.made_from.end(), [](const auto& text) { return text.empty(); })) {
-    lists.made_from.clear();
   }
   for (const mesh::NamedSurface& surface : packing.mesh.surface_names) {
     lists.texts.push_back(surface.name);
@@ -140,7 +136,7 @@ mesh::BlockMesh<dim> unpack_mesh(const Lists& lists) {
     const std::int64_t material = lists.bodies[2 * b];
     mesh.bodies.push_back({lists.texts.at(b), material < 0 ? MaterialId{} : MaterialId{at(lists.bodies, 2 * b)},
                            lists.bodies.at(2 * b + 1) != 0, Eigen::Vector3d(&lists.velocities.at(3 * b)),
-                           lists.made_from.empty() ? "" : lists.made_from.at(b)});
+                           lists.made_from.at(b)});
   }
   unpack_surfaces(lists, mesh);
   return mesh;
@@ -203,7 +199,7 @@ Lists read_lists(const Hdf5Reader& in) {
     *list = in.integers(name);
   }
   lists.texts = in.texts("texts");
-  if (in.number_attribute("version") > oldest_version) lists.made_from = in.texts("made_from");
+  lists.made_from = in.texts("made_from");
   return lists;
 }
 
@@ -218,19 +214,14 @@ InputError refusal(const std::filesystem::path& file, const std::string& value, 
   return InputError(problem);
 }
 
-bool is_read(std::int64_t version) {
-  return version >= oldest_version && version <= format_version;
-}
-
 // Who wrote it, for which dimension: reason enough to refuse it before anything else is read.
 void check_kind(const Hdf5Reader& in, const std::filesystem::path& file, int dimension) {
   if (!in.has_attribute("format") || in.text_attribute("format") != format_name) {
     throw refusal(file, "another kind of HDF5 file", "must be a packing", "Give the packing.h5 of a run");
   }
-  if (const std::int64_t version = in.number_attribute("version"); !is_read(version)) {
+  if (const std::int64_t version = in.number_attribute("version"); version != format_version) {
     throw refusal(file, fmt::format("of format version {}", version),
-                  fmt::format("this program reads versions {} to {}", oldest_version, format_version),
-                  "Settle the scene again");
+                  fmt::format("this program reads version {}", format_version), "Settle the scene again");
   }
   if (const std::int64_t found = in.number_attribute("dimension"); found != dimension) {
     throw refusal(file, fmt::format("in {}-D", found), fmt::format("this scene is in {}-D", dimension),
@@ -297,7 +288,7 @@ Packing<dim> read(const std::filesystem::path& file) {
 std::optional<std::string> stored_key(const std::filesystem::path& file) {
   try {
     const Hdf5Reader in(file);
-    if (in.text_attribute("format") != format_name || !is_read(in.number_attribute("version"))) return std::nullopt;
+    if (in.text_attribute("format") != format_name || in.number_attribute("version") != format_version) return std::nullopt;
     return in.text_attribute("key");
   } catch (const Hdf5Error&) {
     return std::nullopt;

@@ -126,19 +126,17 @@ TEST_F(PackingFile, APackingComesBackToTheBit) {
   EXPECT_FALSE(read<2>(file()).settled);
 }
 
-TEST_F(PackingFile, AFileOfTheVersionBeforeIsReadAndItsBodiesAreMadeFromNobodyKnowsWhat) {
-  auto packing = awkward_packing<3>();
-  for (mesh::Body& body : packing.mesh.bodies) body.made_from.clear();
-  write(packing, file());
-  {
-    const Hdf5Handle older = writable(file());
-    ASSERT_GE(H5Ldelete(older.id(), "made_from", H5P_DEFAULT), 0);
-    const std::int64_t number = 5;
-    const Hdf5Handle version(H5Aopen(older.id(), "version", H5P_DEFAULT), H5Aclose, "version");
-    ASSERT_GE(H5Awrite(version.id(), H5T_NATIVE_INT64, &number), 0);
+TEST_F(PackingFile, AFileOfAnotherVersionIsRefusedAndHasNoKey) {
+  for (const std::int64_t number : {6, 8}) {
+    write(awkward_packing<3>(), file());
+    {
+      const Hdf5Handle other = writable(file());
+      const Hdf5Handle version(H5Aopen(other.id(), "version", H5P_DEFAULT), H5Aclose, "version");
+      ASSERT_GE(H5Awrite(version.id(), H5T_NATIVE_INT64, &number), 0);
+    }
+    EXPECT_THAT(refusal<3>(file()), HasSubstr("(this program reads version 7). Settle the scene again")) << number;
+    EXPECT_EQ(stored_key(file()), std::nullopt) << number;
   }
-  expect_same(packing, read<3>(file()));
-  EXPECT_EQ(stored_key(file()), packing.key);
 }
 
 TEST_F(PackingFile, AReportComesBackToTheBit) {

@@ -32,5 +32,14 @@ TEST(RunPage, RefusesASummaryThatNoRunHasLeft) {
   }
 }
 
+TEST(RunPage, RefusesProbesThatEndBeforeTheirRunDid) {
+  const auto run = test::run("hexahedra", test::fresh_directory("page_of_cut_probes"));
+  const run::RunFiles files{run.directory};
+  EXPECT_THAT(run_page(files, Pictures::none), HasSubstr("Temperature at the probes"));
+  std::filesystem::resize_file(files.probes(), std::filesystem::file_size(files.probes()) / 2);
+  EXPECT_THAT([&] { run_page(files, Pictures::none); },
+              testing::ThrowsMessage<RunError>(HasSubstr("probes.csv: is damaged: it ends before its run did")));
+}
+
 }  // namespace
 }  // namespace scree::report

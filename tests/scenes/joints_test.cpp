@@ -167,6 +167,17 @@ TEST(BarsOfUnlikeMeshes, AreToldThatTheirJointConductsHalfAndWithWhichToleranceI
   EXPECT_NEAR(all.summary["joints"][0]["touching_area"], 0.0025, 1e-9);
 }
 
+// What they share is heated twice, and blocks are joined by what lies on their surfaces only.
+TEST(BarsAndJoint, ThatLieInEachOtherAreNamedAsWellAsThatTheyDoNotTouch) {
+  const SceneRun run =
+      sound_run("bars_and_joint", "bars_in_each_other",
+                {"bodies.right.box.centre=[0.09, 0, 0]", "heat.boundaries=[]", "heat.until=1 min", "output.probes=null"});
+  EXPECT_THAT(run.summary["remarks"].get<std::vector<std::string>>(),
+              testing::ElementsAre("suspicious: block 0 of body left and block 1 of body right overlap by 0.01 m before "
+                                   "anything moves",
+                                   "contacts: no two blocks touch: no heat passes between any of them"));
+}
+
 // 64 cubes with sides of 0.01 m2, 144 joints of which cover a side of each of two cubes.
 TEST(JointedCubes, AreToldFromCubesInTheOpenWhereAllTheirFacesAreCooled) {
   const SceneRun run = test::run("jointed_cubes", fresh_directory("cooled_cubes"),

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -41,6 +43,26 @@ TEST(StudyTable, ComesBackFromHdf5ToTheBit) {
   EXPECT_EQ(table.find("hot")->numbers[2], 1e-300);
   std::filesystem::remove(file);
   EXPECT_THROW(read_table(file), InputError);
+}
+
+// None of them ends the program: what is read all the same has as many cells in each column.
+TEST(StudyTable, WithAFlippedBitIsRefusedOrStillATable) {
+  const auto file = test::temp_folder() / "table.h5";
+  write_hdf5(sample(), file);
+  std::ostringstream whole;
+  whole << std::ifstream(file, std::ios::binary).rdbuf();
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at < whole.str().size(); at += 3) {
+    std::string damaged = whole.str();
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      EXPECT_FALSE(to_csv(read_table(file)).empty()) << at;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100U);
 }
 
 // Fisher (1925), The arrangement's yields: any table of t gives 2.776 for four degrees of freedom.

@@ -89,9 +89,11 @@ TimeUnit unit_for(double longest) {
   return {"s", 1};
 }
 
-void add_probes(Page& page, const run::RunFiles& files) {
+void add_probes(Page& page, const Json& summary, const run::RunFiles& files) {
   if (!std::filesystem::exists(files.probes())) return;
-  const output::ProbeHistory history = output::read_probe_history(files.probes());
+  const bool ended = summary.contains("heat");
+  const output::ProbeHistory history = ended ? output::read_probe_history(files.probes(), number(summary.at("heat"), "time"))
+                                             : output::read_probe_history(files.probes());
   if (history.times.empty()) return;
   const TimeUnit unit = unit_for(history.times.back());
   Chart chart;
@@ -207,7 +209,7 @@ std::string page_of(const Json& summary, const run::RunFiles& files, Pictures pi
   add_remarks(page, summary);
   add_models(page, summary, files);
   add_pictures(page, summary, files, pictures);
-  add_probes(page, files);
+  add_probes(page, summary, files);
   if (summary.contains("settle")) add_settle(page, summary.at("settle"));
   if (summary.contains("heat")) {
     add_ledger(page, summary.at("heat"));

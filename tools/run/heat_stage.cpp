@@ -13,6 +13,7 @@
 #include "thermal/step_forecast.h"
 #include "tools/run/begin_results.h"
 #include "tools/run/packing_stage.h"
+#include "tools/scene/suspicions.h"
 
 namespace scree::run {
 
@@ -36,6 +37,9 @@ HeatedPile<dim> find_pile(RunContext& context, packing::Packing<dim>& packing) {
   for (const std::string& key : pile.unused_joints)
     context.remark(fmt::format("contacts: {} holds for none in this packing", key));
   if (pile.one_sided) context.remark("contacts: " + one_sided_words(*pile.one_sided));
+  for (const std::string& sentence : isolated_blocks(pile.mesh, pile.contacts, context.scene)) {
+    context.remark("contacts: " + sentence);
+  }
   return pile;
 }
 

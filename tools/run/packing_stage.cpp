@@ -60,11 +60,6 @@ packing::Packing<dim> read_named(const Scene& scene) {
   }
 }
 
-void note_unknown_making(RunContext& context, const Table<BodyId, mesh::Body>& bodies) {
-  const bool known = std::none_of(bodies.begin(), bodies.end(), [](const mesh::Body& body) { return body.made_from.empty(); });
-  if (!known) context.remark("packing: it does not say what its bodies were made from; the scene's shapes are not compared");
-}
-
 // Whoever names a packing accepts it as it is, which the run that made it may not have done; `settle.accept_moving` accepts one
 // that moves.
 template <int dim>
@@ -78,10 +73,9 @@ void note_unsettled(RunContext& context, const packing::Packing<dim>& packing) {
   }
 }
 
-// Of blocks that are let go one after the other those that wait may lie where others were before.
-void note_overlaps(RunContext& context, const mesh::BlockMesh<3>& blocks) {
-  if (context.scene.settle->options.release_time > 0) return;
-  for (const std::string& sentence : overlapping_bodies(blocks, true)) context.remark("suspicious: " + sentence);
+template <int dim>
+void note_overlaps(RunContext& context, const mesh::BlockMesh<dim>& blocks, packing::Pairs asked) {
+  for (const std::string& sentence : overlapping_blocks(blocks, asked)) context.remark("suspicious: " + sentence);
 }
 
 packing::Packing<3> settle(RunContext& context, const mesh::BlockMesh<3>& blocks) {
@@ -117,7 +111,8 @@ std::optional<packing::Packing<3>> earlier_packing(RunContext& context) {
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
   check_clearance(context.scene, blocks);
   check_heat(context.scene, blocks);
-  note_overlaps(context, blocks);
+  // Of blocks that are let go one after the other those that wait may lie where others were before.
+  if (context.scene.settle->options.release_time == 0) note_overlaps(context, blocks, packing::Pairs::with_a_free_block);
   if (packing::stored_key(context.files.packing()) == key) {
     if (auto earlier = earlier_packing(context)) return {*std::move(earlier), true};
   }
@@ -198,7 +193,6 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
   if (context.scene.packing) {
     auto packing = context.stage("packing", fmt::format("reading {}", context.scene.packing->string()),
                                  [&] { return stored_packing<dim>(context.scene); });
-    note_unknown_making(context, packing.mesh.bodies);
     note_unsettled(context, packing);
     return {std::move(packing), false};
   }
@@ -209,6 +203,7 @@ PackingOutcome<dim> packing_stage(RunContext& context) {
   if (context.scene.settle) {
     if constexpr (dim == 3) outcome = settled(context, blocks, key);
   } else {
+    note_overlaps(context, blocks, packing::Pairs::of_different_bodies);
     outcome = {packing::unmoved<dim>(std::move(blocks)), false};
   }
   if (context.scene.settle && context.scene.settle->accept_moving) note_unsettled(context, outcome.packing);

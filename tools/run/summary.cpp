@@ -269,7 +269,8 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
         fmt::format("a block was pressed into another by {:.3g} of its size during the fall: one may have passed through the "
                     "other. Lower settle.step, raise settle.iterations, or make masses less unlike",
                     report.deepest_overlap));
-    for (const std::string& start : overlapping_bodies(mesh, true)) reasons.push_back(start + ". Move them apart");
+    for (const std::string& start : overlapping_blocks(mesh, packing::Pairs::with_a_free_block))
+      reasons.push_back(start + ". Move them apart");
   }
   if (const std::size_t free = free_blocks(mesh); free > 0 && report.lost_blocks.size() == free) {
     reasons.emplace_back(

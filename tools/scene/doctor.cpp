@@ -83,12 +83,14 @@ CheckReport check_scene(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
   }
   if (!scene.settle && scene.effective_window) append(sentences, window_beyond_blocks(mesh, *scene.effective_window));
   if (scene.packing) return report;  // the run that made it has judged how the blocks lie
-  append(sentences, overlapping_bodies(mesh, scene.settle && !scene.heat));
+  append(sentences,
+         overlapping_blocks(mesh, scene.settle && !scene.heat ? packing::Pairs::with_a_free_block : packing::Pairs::all));
   if constexpr (dim == 3) {
     if (scene.settle) append(sentences, falling_forever(mesh, scene.settle->options.gravity));
   }
   if (scene.settle || !scene.heat) return report;
-  append(sentences, isolated_blocks(mesh, scene));
+  const auto search = thermal::contact_search(scene.heat->joint, mesh.bodies, *scene.contact);
+  append(sentences, isolated_blocks(mesh, contact::find_contacts(mesh, search), scene));
   return report;
 }
 template CheckReport check_scene(const Scene&, const mesh::BlockMesh<2>&);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/checked_input.h"
-#include "engine/mesh/block_mesh.h"
+#include "engine/packing/near_pieces.h"
 #include "tools/scene/scene.h"
 
 namespace scree {
@@ -27,10 +27,10 @@ std::optional<std::string> bare_value(const std::string& path, const std::string
 Sentences too_many_frames_of_a_fall(const Scene& scene);
 Sentences too_many_outputs(const Scene& scene);
 
-// Blocks that lie in each other before anything moves; with `only_free` no two fixed ones: the walls of a box meet in its
-// corners. Where there is heat, what they share is heated twice.
+// Blocks that lie in each other before anything moves. Two fixed ones do in the corners of a box of walls; where there is heat,
+// what they share is heated twice. To look at different bodies only costs next to nothing where they are apart.
 template <int dim>
-Sentences overlapping_bodies(const mesh::BlockMesh<dim>& mesh, bool only_free);
+Sentences overlapping_blocks(const mesh::BlockMesh<dim>& mesh, packing::Pairs asked);
 
 // Free blocks with no fixed block below them, as gravity goes.
 Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity);
@@ -42,6 +42,6 @@ Sentences window_beyond_blocks(const mesh::BlockMesh<dim>& mesh, const Aabb<3>& 
 // Blocks that no heat can reach through a contact, in bodies that no boundary or source heats; and, of a scene that has a
 // section on contacts, that there are none.
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene);
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts, const Scene& scene);
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "engine/packing/mixed_bodies.h"
 #include "engine/packing/penetration.h"
 #include "tools/scene/suspicions.h"
 
@@ -64,10 +65,8 @@ bool reaches_into(const mesh::BlockMesh<2>& mesh, BlockId a, BlockId b) {
 }
 
 // Pairs of blocks, by boxes sorted along x.
-std::vector<std::pair<BlockId, BlockId>> near_pairs(const mesh::BlockMesh<2>& mesh) {
+std::vector<std::pair<BlockId, BlockId>> near_pairs(const mesh::BlockMesh<2>& mesh, std::vector<BlockId> order) {
   const Boxes<2> boxes = block_boxes(mesh);
-  std::vector<BlockId> order;
-  for (const BlockId block : mesh.blocks.ids()) order.push_back(block);
   std::stable_sort(order.begin(), order.end(), [&](BlockId a, BlockId b) { return boxes[a].min().x() < boxes[b].min().x(); });
   std::vector<std::pair<BlockId, BlockId>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -98,18 +97,22 @@ Shadow shadow_of(const mesh::BlockMesh<3>& mesh, BlockId block, const Eigen::Mat
 
 // The deepest pair only: the others are of its kind, and mending the scene shows the next.
 template <>
-Sentences overlapping_bodies(const mesh::BlockMesh<3>& mesh, bool only_free) {
+Sentences overlapping_blocks(const mesh::BlockMesh<3>& mesh, packing::Pairs asked) {
   const double edge = mesh::mean_edge(mesh);
-  const packing::Pairs pairs = only_free ? packing::Pairs::with_a_free_block : packing::Pairs::all;
-  const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge, {}, pairs);
+  const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge, {}, asked);
   if (deepest.max <= rounding * edge) return {};
   return {overlap_sentence(mesh, deepest.first, deepest.second, fmt::format(" by {:.3g} m", deepest.max))};
 }
 
 // Found by points inside elements: two slim blocks that cross without holding each other's nodes are missed.
 template <>
-Sentences overlapping_bodies(const mesh::BlockMesh<2>& mesh, bool) {
-  for (const auto& [a, b] : near_pairs(mesh)) {
+Sentences overlapping_blocks(const mesh::BlockMesh<2>& mesh, packing::Pairs asked) {
+  const bool across_bodies = asked == packing::Pairs::of_different_bodies;
+  const auto ids = mesh.blocks.ids();
+  const std::vector<BlockId> blocks = across_bodies ? packing::blocks_in_other_bodies(mesh, rounding * mesh::mean_edge(mesh))
+                                                    : std::vector<BlockId>(ids.begin(), ids.end());
+  for (const auto& [a, b] : near_pairs(mesh, blocks)) {
+    if (across_bodies && mesh.blocks[a].body == mesh.blocks[b].body) continue;
     if (reaches_into(mesh, a, b) || reaches_into(mesh, b, a)) return {overlap_sentence(mesh, a, b, "")};
   }
   return {};
@@ -162,7 +165,7 @@ template Sentences window_beyond_blocks(const mesh::BlockMesh<2>&, const Aabb<3>
 template Sentences window_beyond_blocks(const mesh::BlockMesh<3>&, const Aabb<3>&);
 
 template <int dim>
-Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene) {
+Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::ContactSet<dim>& contacts, const Scene& scene) {
   if (mesh.blocks.size() < 2) return {};
   const thermal::HeatOptions& heat = *scene.heat;
   const thermal::JointOptions& joint = heat.joint;
@@ -170,8 +173,8 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene) 
   for (const auto& boundary : heat.boundaries) heated[boundary.region.body] = 1;
   for (const auto& source : heat.sources) heated[source.region.body] = 1;
   Table<BlockId, bool> touched(mesh.blocks.size(), false);
-  const auto search = thermal::contact_search(joint, mesh.bodies, *scene.contact);
-  for (const auto& contact : contact::find_contacts(mesh, search).contacts) {
+  for (const auto& contact : contacts.contacts) {
+    if (touched[contact.owner] && touched[contact.target]) continue;
     const BodyId owner = mesh.blocks[contact.owner].body, target = mesh.blocks[contact.target].body;
     if (std::holds_alternative<thermal::InsulatingJoint>(thermal::law_between(joint, mesh.bodies, owner, target))) continue;
     touched[contact.owner] = true;
@@ -197,7 +200,7 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const Scene& scene) 
   }
   return sentences;
 }
-template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const Scene&);
-template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const Scene&);
+template Sentences isolated_blocks(const mesh::BlockMesh<2>&, const contact::ContactSet<2>&, const Scene&);
+template Sentences isolated_blocks(const mesh::BlockMesh<3>&, const contact::ContactSet<3>&, const Scene&);
 
 }  // namespace scree

@@ -52,16 +52,6 @@ struct Result {
   std::vector<Cell> reported;  // of each report
 };
 
-// A table that ends before its run did lacks what it may have reached there.
-output::ProbeHistory whole_history(const std::filesystem::path& file, const Json& summary) {
-  output::ProbeHistory history = output::read_probe_history(file);
-  const Json& time = value_at(summary, "heat.time");
-  if (history.times.empty() || (time.is_number() && history.times.back() != time.get<double>())) {
-    throw RunError(fmt::format("{}: is damaged: it ends before its run did", file.string()));
-  }
-  return history;
-}
-
 // A complete run whose probes cannot be read is damaged: the others still make a table.
 Result result_of(const Study& study, const StudyFiles& files, const std::string& run) {
   Outcome outcome = read_outcome(files, run);
@@ -70,7 +60,7 @@ Result result_of(const Study& study, const StudyFiles& files, const std::string&
   // One that has not ended may reach a temperature yet, and one that went wrong is no measurement.
   if (asked && outcome.status == "complete") {
     try {
-      history = whole_history(files.run(run).probes(), outcome.summary);
+      history = output::read_probe_history(files.run(run).probes(), value_at(outcome.summary, "heat.time").get<double>());
     } catch (const std::exception& error) {
       outcome.status = "damaged";
       outcome.reason = fmt::format("{}. Remove runs/{} to have it made again", error.what(), run);

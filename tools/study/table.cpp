@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,18 @@ std::string line(const Table& table, auto cell_of) {
   for (const Column& column : table.columns) text += csv_cell(cell_of(column)) + ',';
   text.back() = '\n';
   return text;
+}
+
+Column read_column(const Hdf5Reader& in, const std::string& name) {
+  Column column{name};
+  column.is_text = in.holds_texts(name);
+  column.is_text ? void(column.texts = in.texts(name)) : void(column.numbers = in.doubles(name));
+  return column;
+}
+
+bool is_whole(const Table& table) {
+  return !table.columns.empty() && std::all_of(table.columns.begin(), table.columns.end(),
+                                               [&](const Column& column) { return column.size() == table.rows(); });
 }
 
 }  // namespace
@@ -57,21 +71,21 @@ Table read_table(const std::filesystem::path& file) {
   try {
     const Hdf5Reader in(file);
     Table table;
-    for (const std::string& name : in.texts("columns")) {
-      Column column{name};
-      column.is_text = in.holds_texts(name);
-      column.is_text ? void(column.texts = in.texts(name)) : void(column.numbers = in.doubles(name));
-      table.columns.push_back(std::move(column));
-    }
-    return table;
+    for (const std::string& name : in.texts("columns")) table.columns.push_back(read_column(in, name));
+    if (is_whole(table)) return table;
   } catch (const Hdf5Error&) {
-    Problem problem;
-    problem.key = "the table";
-    problem.value = file.string();
-    problem.rule = "must be the table of a study";
-    problem.suggestion = "`scree study STUDY` and `scree study STUDY --gather` write it";
-    throw InputError(problem);
+    // said below, in words that help
+  } catch (const std::bad_alloc&) {
+    // a column longer than memory
+  } catch (const std::length_error&) {
+    // or than any list
   }
+  Problem problem;
+  problem.key = "the table";
+  problem.value = file.string();
+  problem.rule = "must be the table of a study";
+  problem.suggestion = "`scree study STUDY` and `scree study STUDY --gather` write it";
+  throw InputError(problem);
 }
 
 }  // namespace scree::study
