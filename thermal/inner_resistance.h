@@ -4,7 +4,8 @@
 //   -div(k grad G) = -1/V,   k n.grad G = the patch's density of heat flow,   mean G = 0    [K/W].
 // Ritz's method with the polynomials of first and second degree about the centroid is exact for a bar or slab heated at its
 // ends, a sphere heated all over and an ellipsoid alike; it needs the volume, the centroid and the second moments M of the
-// block, no mesh of its inside. With m = mean of x x^T over the patch,
+// block, no mesh of its inside. In a bent block the path of heat is no polynomial of place: G is multiplied by the square of
+// how much further it is along the block than straight (detour.h). With m = mean of x x^T over the patch,
 //   G = (k^-1 mean(x)/V).x + x.B x - tr(B M)/V,   k B M + M B k = (m - M/V)/2.
 // What a small patch adds is the constriction of the flow lines near it (Cooper, Mikic and Yovanovich, Int. J. Heat Mass
 // Transfer 12, 1969): in 3-D psi/(4 k r), r the radius of a circle as large as the patch, psi = (1 - r/b)^1.5, b that of a
@@ -62,6 +63,7 @@ class InnerResistance {
   Point<dim> centroid_ = Point<dim>::Zero();                   // [m]
   double volume_ = 0;                                          // [m3]
   Tensor<dim> moments_ = Tensor<dim>::Zero();                  // integral of x x^T about the centroid [m5]
+  double bent_ = 1;                                            // factor of what is bent [-]
   Tensor<dim> inverse_root_;                                   // of Cholesky's root of the conductivity
   Eigen::SelfAdjointEigenSolver<Tensor<dim>> scaled_moments_;  // by that from both sides
 };

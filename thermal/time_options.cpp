@@ -21,6 +21,12 @@ TimeOptions checked(const TimeOptions& options) {
   return options;
 }
 
+namespace {
+
+constexpr double most_steps = 1e9;  // of a run: more are none that anyone waits for
+
+}  // namespace
+
 double explicit_step(const HeatModel& model, const TimeOptions& options) {
   const StableStep stable = stable_step(model);
   const double step = options.step.value_or(stable.step);
@@ -29,6 +35,13 @@ double explicit_step(const HeatModel& model, const TimeOptions& options) {
                              fmt::format("must be at most the stable step of {:.6g} s, which block {} sets", stable.step,
                                          model.blocks[stable.node].value()),
                              "Leave the step out, or use the implicit integrator, which has no such limit"));
+  }
+  if (options.until > most_steps * step) {
+    throw InputError(
+        problem("heat.until", fmt::format("{:g} s", options.until),
+                fmt::format("must be at most {:g} explicit steps of {:.6g} s, {}", most_steps, step,
+                            options.step ? "heat.step" : fmt::format("which block {} sets", model.blocks[stable.node].value())),
+                "Use the implicit integrator, whose steps may be longer"));
   }
   return step;
 }

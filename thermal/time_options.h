@@ -9,7 +9,7 @@ namespace scree::thermal {
 TimeOptions checked(const TimeOptions& options);
 
 // The step of explicit Euler that is asked for, or the largest stable one [s]. Throws InputError for more, with the node that
-// limits it.
+// limits it, and for a thousand million steps and more.
 double explicit_step(const HeatModel& model, const TimeOptions& options);
 
 // Time is on an output time if it is this close to one, in output intervals.

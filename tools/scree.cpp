@@ -129,7 +129,7 @@ std::string check_report(const scree::Scene& scene) {
                     : scree::packing::unmoved<dim>(scree::mesh::make_blocks<dim>(scene.bodies, scree::output::mesh_readers()));
   const auto blocks = scree::packing::remaining(packing).mesh;
   if constexpr (dim == 3) {
-    if (scene.settle) scree::run::check_clearance(scene, blocks);
+    if (scene.settle) scree::run::check_fall(scene, blocks);
   }
   scene.settle ? scree::run::check_heat(scene, blocks) : scree::run::check_placed(scene, packing);
   return scree::to_text(scree::check_scene(scene, blocks));
@@ -149,7 +149,9 @@ std::string keys_that_begin_with(const std::string& prefix) {
   std::string text = scree::key_reference(scree::scene_keys(), prefix);
   if (!text.empty()) return text;
   std::vector<std::string> known;
-  for (const scree::Key& key : scree::scene_keys().keys()) known.push_back(key.path);
+  for (const scree::Key& key : scree::scene_keys().keys()) {
+    if (!key.implied) known.push_back(key.path);
+  }
   scree::Problem problem;
   problem.key = "prefix";
   problem.value = prefix;

@@ -67,9 +67,11 @@ class Converter {
     value.where = location(file_, node.Mark());
     if (value.where.line == 0) value.where = parent;
     constexpr int deepest = 100;
-    constexpr int most = 200'000;
-    if (depth > deepest || ++count_ > most) {
-      refuse(value.where, "too deeply nested or too large", "", "Look for an alias that holds itself");
+    constexpr int most = 2'000'000;
+    if (depth > deepest) refuse(value.where, "too deeply nested", "", "Look for an alias that holds itself");
+    if (++count_ > most) {
+      refuse(value.where, "too large", fmt::format("must have at most {} values", most),
+             "Look for aliases within aliases; many places may come from a lattice, at random or from a mesh file");
     }
     if (node.IsScalar()) {
       value.kind = InputValue::Kind::scalar;
@@ -102,6 +104,7 @@ class Converter {
     }
     entry.name = text_of(name, entry.where);
     entry.value = convert(node, entry.where, depth + 1);
+    if (entry.value.kind == InputValue::Kind::empty) entry.value.where = entry.where;  // else where the next thing is
     if (const InputValue* first = map.find(entry.name)) {
       const std::string rule = fmt::format("the first is at line {}", first->where.line);
       problems.push_back({entry.where, entry.name, "given twice", rule, "Keep one of them"});
@@ -113,6 +116,12 @@ class Converter {
   std::string file_;
   int count_ = 0;
 };
+
+// The last end of a character up to here, of UTF-8.
+std::size_t characters_end(const std::string& text, std::size_t at) {
+  while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U) --at;
+  return at;
+}
 
 }  // namespace
 
@@ -165,7 +174,7 @@ std::string describe(const InputValue& value) {
   }
   constexpr std::size_t longest = 60;
   if (value.text.empty()) return "\"\"";
-  return value.text.size() <= longest ? value.text : value.text.substr(0, longest) + "...";
+  return value.text.size() <= longest ? value.text : value.text.substr(0, characters_end(value.text, longest)) + "...";
 }
 
 }  // namespace scree

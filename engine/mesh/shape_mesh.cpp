@@ -235,10 +235,11 @@ SimplexMesh<dim> mesh_in_cells(const BodySpec& body, const ShapeType& shape) {
   }
 }
 
-// Of shapes that are a thousand times as slender Gmsh ends the program.
+// Of shapes that are a thousand times as slender Gmsh ends the program, of rods that are some twenty times as slender.
 template <int dim>
 void check_slenderness(const BodySpec& body) {
-  constexpr double most = 1e6;
+  const auto* cylinder = std::get_if<Cylinder>(&body.shape);
+  const double most = cylinder != nullptr && cylinder->height > cylinder->diameter ? 1e4 : 1e6;
   const auto [least, largest] = std::visit([](const auto& shape) { return lengths<dim>(shape); }, body.shape);
   if (largest > most * least) {
     throw body_error(body, "", fmt::format("{:g} m long and {:g} m thick", largest, least),

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
+
+#include "engine/mesh/cells.h"
 
 namespace scree::output {
 
 namespace {
 
 constexpr int highest_degree = 3;
+constexpr int lowest_degree = 2;
 // Cells around the point, a little more so that nodes right there are among them.
 constexpr double least_reach = 2.01;
 constexpr double largest_reach = 4.01;
@@ -40,20 +45,59 @@ std::vector<Powers<dim>> exponents(int degree, const Powers<dim>& most) {
   return all;
 }
 
-// Nodes near the point and where they are from it, in cells.
+// Columns are the mean edges of a cell along its own axes [m].
+template <int dim>
+Eigen::Matrix<double, dim, dim> axes_of(const mesh::BlockMesh<dim>& mesh, const mesh::Cell& cell) {
+  // Corners of a quadrilateral go around, those of a hexahedron around its bottom, then its top.
+  Eigen::Matrix<double, dim, dim> axes = Eigen::Matrix<double, dim, dim>::Zero();
+  const auto edge = [&](std::size_t from, std::size_t to) -> Point<dim> {
+    return mesh.nodes[cell.nodes[to]] - mesh.nodes[cell.nodes[from]];
+  };
+  constexpr std::size_t layers = dim - 1;
+  for (std::size_t bottom = 0; bottom < 4 * layers; bottom += 4) {
+    axes.col(0) += (edge(bottom, bottom + 1) + edge(bottom + 3, bottom + 2)) / (2.0 * layers);
+    axes.col(1) += (edge(bottom, bottom + 3) + edge(bottom + 1, bottom + 2)) / (2.0 * layers);
+  }
+  if constexpr (dim == 3) {
+    for (std::size_t corner = 0; corner < 4; ++corner) axes.col(2) += edge(corner, corner + 4) / 4;
+  }
+  return axes;
+}
+
+// Nodes near the point, where they are from it, in cells, and from how many cells away they are reached.
 template <int dim>
 struct Surroundings {
   std::vector<NodeId> nodes;
   std::vector<Point<dim>> places;
+  std::vector<int> steps;
 
-  Surroundings(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent,
-               double reach) {
-    for (const NodeId node : mesh.blocks[block].nodes) {
-      const Point<dim> place = (mesh.nodes[node] - point).cwiseQuotient(extent);
-      if (place.cwiseAbs().maxCoeff() > reach) continue;
-      nodes.push_back(node);
-      places.push_back(place);
+  Surroundings(const mesh::BlockMesh<dim>& mesh, BlockId in, CellId cell, const Point<dim>& point) {
+    const mesh::Block& block = mesh.blocks[in];
+    const Eigen::Matrix<double, dim, dim> to_cells = axes_of<dim>(mesh, mesh.cells[cell]).inverse();
+    std::vector<int> away(block.nodes.size(), too_far);
+    for (const NodeId node : block.nodes) {
+      const Point<dim> place = to_cells * (mesh.nodes[node] - point);
+      if (place.cwiseAbs().maxCoeff() <= largest_reach) away[node.index() - block.nodes.first()] = not_reached;
     }
+    count_steps(mesh, block, cell, away);
+    for (const NodeId node : block.nodes) {
+      if (away[node.index() - block.nodes.first()] < 0) continue;
+      nodes.push_back(node);
+      places.push_back(to_cells * (mesh.nodes[node] - point));
+      steps.push_back(away[node.index() - block.nodes.first()]);
+    }
+  }
+
+  // Those within a number of cells.
+  [[nodiscard]] Surroundings within(double reach) const {
+    Surroundings near;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (places[i].cwiseAbs().maxCoeff() > reach || steps[i] > static_cast<int>(reach)) continue;
+      near.nodes.push_back(nodes[i]);
+      near.places.push_back(places[i]);
+      near.steps.push_back(steps[i]);
+    }
+    return near;
   }
 
   // The powers of each axis that its layers of nodes determine: across a plate of one cell a line.
@@ -68,6 +112,38 @@ struct Surroundings {
       most[static_cast<std::size_t>(axis)] = layers - 1;
     }
     return most;
+  }
+
+ private:
+  static constexpr int not_reached = -1, too_far = -2;
+
+  Surroundings() = default;
+
+  // From cell to cell that have a node in common, in rounds.
+  static void count_steps(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block, CellId start, std::vector<int>& away) {
+    const auto of = [&](NodeId node) -> int& { return away[node.index() - block.nodes.first()]; };
+    const auto corners = [&](CellId cell) {
+      return std::span(mesh.cells[cell].nodes).first(mesh::corner_count(mesh.cells[cell].kind));
+    };
+    std::vector<CellId> near;
+    for (const CellId cell : block.cells) {
+      if (std::ranges::any_of(corners(cell), [&](NodeId node) { return of(node) == not_reached; })) near.push_back(cell);
+    }
+    const auto reach = [&](CellId cell, int step) {
+      for (const NodeId node : corners(cell)) {
+        if (of(node) == not_reached) of(node) = step;
+      }
+    };
+    reach(start, 0);
+    for (int step = 1; step <= static_cast<int>(largest_reach); ++step) {
+      std::vector<CellId> next;
+      std::erase_if(near, [&](CellId cell) {
+        const bool beside = std::ranges::any_of(corners(cell), [&](NodeId node) { return of(node) >= 0; });
+        if (beside) next.push_back(cell);
+        return beside;
+      });
+      for (const CellId cell : next) reach(cell, step);
+    }
   }
 };
 
@@ -107,11 +183,12 @@ std::vector<double> fit(const Surroundings<dim>& around, int degree, const Power
 }  // namespace
 
 template <int dim>
-Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent) {
-  const Powers<dim> most = Surroundings<dim>(mesh, block, point, extent, largest_reach).powers();
-  for (int degree = highest_degree; degree > 0; --degree) {
+Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, CellId cell, const Point<dim>& point) {
+  const Surroundings<dim> all(mesh, block, cell, point);
+  const Powers<dim> most = all.powers();
+  for (int degree = highest_degree; degree >= lowest_degree; --degree) {
     for (double reach = least_reach; reach <= largest_reach; ++reach) {
-      Surroundings<dim> around(mesh, block, point, extent, reach);
+      Surroundings<dim> around = all.within(reach);
       std::vector<double> weights = fit<dim>(around, degree, most);
       if (!weights.empty()) return {std::move(around.nodes), std::move(weights)};
     }
@@ -119,7 +196,7 @@ Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Poi
   return {};
 }
 
-template Stencil cubic_stencil(const mesh::BlockMesh<2>&, BlockId, const Point<2>&, const Point<2>&);
-template Stencil cubic_stencil(const mesh::BlockMesh<3>&, BlockId, const Point<3>&, const Point<3>&);
+template Stencil cubic_stencil(const mesh::BlockMesh<2>&, BlockId, CellId, const Point<2>&);
+template Stencil cubic_stencil(const mesh::BlockMesh<3>&, BlockId, CellId, const Point<3>&);
 
 }  // namespace scree::output

@@ -14,11 +14,11 @@ struct Stencil {
   std::vector<double> weights;
 };
 
-// From the nodes of the block within some cells of the size of `extent` [m] around: least squares, near nodes counting most. In
-// a grid of four layers or more along each axis it is exact for cubic fields; along an axis with fewer, for what these
-// determine (two: a line). Where nodes are few otherwise, for quadratic or linear fields; empty where not even those are
-// determined.
+// At a point in a quadrilateral or hexahedron of the block, from the nodes within some cells of its size around, counted along
+// its edges and from cell to cell: what lies across a slot is far away. Least squares, near nodes counting most. In a grid of
+// four layers or more along each axis it is exact for cubic fields; along an axis with fewer, for what these determine (two: a
+// line). Where nodes are few otherwise, for quadratic fields; empty where not even those are determined.
 template <int dim>
-Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, const Point<dim>& point, const Point<dim>& extent);
+Stencil cubic_stencil(const mesh::BlockMesh<dim>& mesh, BlockId block, CellId cell, const Point<dim>& point);
 
 }  // namespace scree::output

@@ -119,14 +119,11 @@ Problem in_a_void(const ProbeSpec& spec, const mesh::BlockMesh<dim>& mesh, const
 template <int dim>
 Stencil reading_of(const mesh::BlockMesh<dim>& mesh, const mesh::CellOfElement<dim>& cells, BlockId block,
                    const Point<dim>& point, const Nearest<dim>& nearest, Reading reading) {
-  const auto& nodes = mesh.elements[nearest.element];
-  if (reading == Reading::cubic) {
-    Aabb<dim> box;
-    for (const NodeId node : nodes) box.extend(mesh.nodes[node]);
-    Stencil stencil = cubic_stencil<dim>(mesh, block, point, box.sizes());
-    if (!stencil.nodes.empty()) return stencil;
+  if (const CellId cell = cells[nearest.element]; cell.valid()) {
+    Stencil stencil = reading == Reading::cubic ? cubic_stencil<dim>(mesh, block, cell, point) : Stencil{};
+    return stencil.nodes.empty() ? cell_stencil<dim>(mesh, cell, point) : stencil;
   }
-  if (const CellId cell = cells[nearest.element]; cell.valid()) return cell_stencil<dim>(mesh, cell, point);
+  const auto& nodes = mesh.elements[nearest.element];
   return {{nodes.begin(), nodes.end()}, {nearest.weights.begin(), nearest.weights.end()}};
 }
 

@@ -143,17 +143,31 @@ bool same_nodes(vtkUnstructuredGrid& grid, const mesh::BlockMesh<dim>& mesh, dou
   });
 }
 
+// Of each node of a block a middle of an element there: towards the middle of the whole a ring's nodes would leave it.
+template <int dim>
+std::vector<Point<dim>> points_inside(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block) {
+  std::vector<Point<dim>> inside(block.nodes.size());
+  for (const ElementId element : block.elements) {
+    Point<dim> middle = Point<dim>::Zero();
+    for (const NodeId node : mesh.elements[element]) middle += mesh.nodes[node] / (dim + 1);
+    for (const NodeId node : mesh.elements[element]) inside[node.index() - block.nodes.first()] = middle;
+  }
+  return inside;
+}
+
 template <int dim>
 void interpolate(const StoredField& stored, Lookup& lookup, const mesh::BlockMesh<dim>& mesh, NodalField& field) {
   const double slack = rounding * extent_of(mesh);
   std::size_t outside = 0;
   NodeId first;
   for (const mesh::Block& block : mesh.blocks) {
+    const std::vector<Point<dim>> inside = points_inside(mesh, block);
     Aabb<dim> box;
     for (const NodeId node : block.nodes) box.extend(mesh.nodes[node]);
     for (const NodeId node : block.nodes) {
-      const Point<dim> drawn = mesh.nodes[node] + inwards * (box.center() - mesh.nodes[node]);
-      const Lookup::Found found = lookup.at(in_space<dim>(drawn), slack);
+      const Point<dim> way = inside[node.index() - block.nodes.first()] - mesh.nodes[node];
+      const double part = std::min(0.5, 0.5 * inwards * box.diagonal().norm() / way.norm());
+      const Lookup::Found found = lookup.at(in_space<dim>(mesh.nodes[node] + part * way), slack);
       field.values[static_cast<Eigen::Index>(node.index())] = found.value;
       if (found.distance > slack) ++field.moved;
       if (!std::isfinite(found.distance) && outside++ == 0) first = node;

@@ -32,7 +32,7 @@ struct NodalField {
 std::filesystem::path stored_frame(const StoredField& stored);
 
 // The point array `temperature` at every node. On a mesh with other nodes a value is interpolated in the cell that holds the
-// node, drawn a millionth of its block's extent to the block's centre so that at a joint the block's own side is taken. Throws
+// node, drawn a millionth of its block's extent into the block so that at a joint the block's own side is taken. Throws
 // InputError for a file that cannot be read, a time that is not there, and nodes outside the mesh and its reach.
 template <int dim>
 NodalField read_stored(const StoredField& stored, const mesh::BlockMesh<dim>& mesh);

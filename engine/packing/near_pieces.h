@@ -3,14 +3,12 @@
 
 #include <vector>
 
+#include "engine/packing/asked_pairs.h"
 #include "engine/packing/separation.h"
 
 namespace scree::packing {
 
-struct Part {
-  BlockId block;
-  BodyId body;
-  bool fixed = false;
+struct Part : Owner {
   PlacedPiece placed;
   Aabb<3> box;
 };
@@ -25,8 +23,6 @@ struct PieceSet {
   Table<BlockId, std::vector<mesh::ConvexPiece>> pieces;
   std::vector<Part> parts;  // in the order of the blocks
 };
-
-enum class Pairs { with_a_free_block, all, of_different_bodies };
 
 // Two parts of different blocks, with boxes nearer than `range` [m], in no order that means anything.
 std::vector<std::pair<const Part*, const Part*>> near_pairs(const std::vector<Part>& parts, double range,

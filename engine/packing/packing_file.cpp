@@ -282,7 +282,7 @@ Packing<dim> read(const std::filesystem::path& file) {
   } catch (const std::bad_alloc&) {
     // a list longer than memory
   }
-  throw refusal(file, "damaged", "must be a whole packing", "Delete it and settle the scene again");
+  throw refusal(file, "damaged", "must be a whole packing", "Give the packing.h5 of a run, or settle the scene again");
 }
 
 std::optional<std::string> stored_key(const std::filesystem::path& file) {

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "engine/packing/mixed_bodies.h"
-
 namespace scree::packing {
 
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost,
-                                Pairs asked) {
+Penetration measure_penetration(const PieceSet& pieces, double contact_range, std::span<const BlockId> lost, Pairs asked) {
   const auto is_lost = [&](const Part* part) { return std::binary_search(lost.begin(), lost.end(), part->block); };
-  const PieceSet pieces = asked == Pairs::of_different_bodies
-                              ? PieceSet(placed_mesh, blocks_in_other_bodies(placed_mesh, contact_range))
-                              : PieceSet(placed_mesh);
   std::map<std::pair<BlockId, BlockId>, double> depth;
   for (const auto& [a, b] : near_pairs(pieces.parts, contact_range, asked)) {
     if (is_lost(a) || is_lost(b)) continue;

@@ -17,9 +17,9 @@ struct Penetration {
 
 // The depth of a pair is the least translation that would part it, by
 // separating axes (separation.h); of blocks in several convex pieces, the deepest of their pairs of pieces. A pair touches if
-// it is nearer than `contact_range` [m]; of different bodies it is looked at only if it may be as deep in each other. Blocks
-// that are lost (ascending) count for nothing: they stay where they left the scene, whatever else was lost there.
-Penetration measure_penetration(const mesh::BlockMesh<3>& placed_mesh, double contact_range, std::span<const BlockId> lost = {},
+// it is nearer than `contact_range` [m]. Blocks that are lost (ascending) count for nothing: they stay where they left the
+// scene, whatever else was lost there.
+Penetration measure_penetration(const PieceSet& pieces, double contact_range, std::span<const BlockId> lost = {},
                                 Pairs asked = Pairs::with_a_free_block);
 
 }  // namespace scree::packing

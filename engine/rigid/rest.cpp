@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/rigid/homes.h"
+#include "engine/rigid/rest_window.h"
 
 namespace scree::rigid {
 
@@ -41,13 +42,6 @@ Motion observe_motion(const World& world, const Damping& damping, double time_st
   // Without any contact nothing bears the blocks: all of the force is unbalanced.
   motion.unbalanced = contact > 0 ? net / contact : (net > 0 || motion.max_speed > 0 ? 1.0 : 0.0);
   return motion;
-}
-
-double rest_window(const SettleOptions& options, double mean_edge) {
-  constexpr double times = 3;
-  const double gravity = options.gravity.norm();
-  if (gravity == 0) return options.rest_window;
-  return std::max(options.rest_window, times * std::sqrt(2 * options.rest_displacement * mean_edge / gravity));
 }
 
 RestWatch::RestWatch(const World& world, const SettleOptions& options, double mean_edge, double time)

@@ -40,10 +40,6 @@ struct Motion {
 
 Motion observe_motion(const World& world, const Damping& damping, double time_step);
 
-// The window in which a pile must be at rest [s]: that of the options, or thrice the time in which gravity moves by as much as
-// is allowed whatever nothing holds, where that is longer. In weak gravity nothing gets far in less.
-double rest_window(const SettleOptions& options, double mean_edge);
-
 // Looks at consecutive windows of time: a window is one of rest if in every step of it the speed and the unbalanced force were
 // below their limits and no block was further than allowed from where it was as the window began.
 class RestWatch {

@@ -6,6 +6,7 @@
 
 #include "engine/base/phases.h"
 #include "engine/rigid/homes.h"
+#include "engine/rigid/rest_window.h"
 
 namespace scree::rigid {
 

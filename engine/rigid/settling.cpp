@@ -207,7 +207,7 @@ packing::Packing<3> settle(const mesh::BlockMesh<3>& blocks, const Table<Materia
   packing.poses = settling.poses();
   const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
   const packing::Penetration penetration =
-      packing::measure_penetration(placed, touching_range * report.mean_edge, report.lost_blocks);
+      packing::measure_penetration(packing::PieceSet(placed), touching_range * report.mean_edge, report.lost_blocks);
   report.max_penetration = penetration.max;
   report.mean_penetration = penetration.mean;
   report.top = pile_top(placed, options.gravity, report.lost_blocks);

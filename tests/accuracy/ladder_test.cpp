@@ -79,6 +79,38 @@ TEST(Ladder, ComparesLumpedBlocksWithMeshedOnes) {
   for (const Rung& rung : ladder) scene("blown_cubes", overrides_of(scene("blown_cubes"), rung));
 }
 
+// What the scene says of some bodies and joints would make rows of other models than they say.
+TEST(Ladder, TakesAModelForAllBodiesAndJoints) {
+  const std::vector<std::string> of_some{"heat.blocks={model: auto, bodies: {left: lumped}}",
+                                         "contact={joints: [{bodies: [left, right], conductance: 5, model: semi_spring}]}"};
+  const Scene own = scene("bars_and_joint", of_some);
+  LadderOptions options;
+  options.mesh_factors = {1};
+  options.tolerances = {0.1};
+  options.block_models = {"meshed"};
+  options.contact_models = {"semi_spring", "overlap"};
+  for (const Rung& rung : ladder_of(own, options)) {
+    std::vector<std::string> overrides = of_some;
+    for (const std::string& override : overrides_of(own, rung)) overrides.push_back(override);
+    const Scene varied = scene("bars_and_joint", overrides);
+    EXPECT_TRUE(varied.heat->blocks.all_meshed());
+    EXPECT_FALSE(varied.heat->joint.rules.at(0).model);
+    EXPECT_EQ(varied.heat->joint.model == contact::Model::overlap, rung.contact_model == "overlap");
+  }
+}
+
+TEST(Ladder, TakesTheScenesOwnStepsUnlessTold) {
+  const Scene own = scene("bars_and_joint", {"heat.integrator=explicit_euler", "heat.step=1 s"});
+  LadderOptions options;
+  options.mesh_factors = {2, 1};
+  for (const Rung& rung : ladder_of(own, options)) {
+    EXPECT_EQ(rung.integrator, "explicit_euler");
+    EXPECT_EQ(overrides_of(own, rung).back(), "heat.integrator=explicit_euler");
+  }
+  options.integrators = {"implicit"};
+  for (const Rung& rung : ladder_of(own, options)) EXPECT_EQ(overrides_of(own, rung).back(), "heat.step=null");
+}
+
 TEST(Ladder, EveryRungIsASceneThatReads) {
   const Scene slab = scene("slab");
   for (const Rung& rung : ladder_of(slab, {})) {

@@ -160,7 +160,7 @@ TEST(CheckInput, EveryKindOfMistakeHasItsText) {
   EXPECT_EQ(wrong_with("3"), "z:1:1: the file is 3 (must be a map of keys)\n");
   EXPECT_EQ(wrong_with("zoo: {}"), "z:1:6: zoo is empty (must be a map of names, at least 1)\n");
   EXPECT_EQ(wrong_with("zoo: {a: 3}"), "z:1:10: zoo.a is 3 (must be a map of keys)\n");
-  EXPECT_EQ(wrong_with("zoo: {a: {mass: }}"), "z:1:17: zoo.a.mass is empty (must be positive, m)\n");
+  EXPECT_EQ(wrong_with("zoo: {a: {mass: }}"), "z:1:11: zoo.a.mass is empty (must be positive, m)\n");
   EXPECT_EQ(wrong_with("zoo: {a: {mass: [1]}}"), "z:1:17: zoo.a.mass is a list (must be positive, m)\n");
   EXPECT_EQ(wrong_with("zoo: {a: {mass: 1, legs: 9}}"),
             "z:1:26: zoo.a.legs is 9 (must be a whole number, at least 0 and at most 8)\n");

@@ -36,6 +36,21 @@ TEST(Input, EveryValueKnowsItsPlace) {
   EXPECT_EQ(to_string(c.items[1].entries[0].where), "s.yaml:3:11");
 }
 
+TEST(Input, WhatIsEmptyIsAtItsKeyNotAtTheNextThing) {
+  const InputValue root = parse_yaml("a:\n\nb:\n  c:\n# more\n  d: 1\n", "s.yaml");
+  EXPECT_EQ(place(*root.find("a")), "s.yaml:1:1");
+  EXPECT_EQ(place(*root.find("b")->find("c")), "s.yaml:4:3");
+}
+
+TEST(Input, ALongTextIsCutBetweenItsCharacters) {
+  InputValue value;
+  value.kind = InputValue::Kind::scalar;
+  value.text = std::string(59, 'a') + "\u00e9 and so on";
+  EXPECT_EQ(describe(value), std::string(59, 'a') + "...");
+  value.text = std::string(58, 'a') + "\u00e9 and so on";
+  EXPECT_EQ(describe(value), std::string(58, 'a') + "\u00e9...");
+}
+
 TEST(Input, AliasesAreCopied) {
   const InputValue root = parse_yaml("a: &x {d: 1}\nb: *x\n", "s.yaml");
   EXPECT_EQ(root.find("b")->find("d")->text, "1");
@@ -70,8 +85,7 @@ TEST(Input, OddFilesAreRefused) {
   EXPECT_EQ(message_of("--- 1\n--- 2\n"),
             "s.yaml:2:5: the file is more than one YAML document. Keep the part before the line ---");
   EXPECT_EQ(message_of("? [1]\n: 2\n"), "s.yaml:1:3: a key is not a word. Write a name before the colon");
-  EXPECT_EQ(message_of("a: &x [*x]\n"),
-            "s.yaml:1:4: the file is too deeply nested or too large. Look for an alias that holds itself");
+  EXPECT_EQ(message_of("a: &x [*x]\n"), "s.yaml:1:4: the file is too deeply nested. Look for an alias that holds itself");
   std::string nested = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) nested += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
   EXPECT_THAT(message_of(nested), testing::HasSubstr("too large"));

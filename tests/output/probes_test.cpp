@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/mesh/cells.h"
 #include "engine/mesh/make_blocks.h"
 #include "tests/output/support.h"
 
@@ -124,6 +125,49 @@ TEST(Probes, ReadFieldsAlongABarOfOneCellAsFarAsItsLayersDetermineThem) {
   const Eigen::VectorXd field = at_nodes(mesh, along);
   for (const Eigen::Vector3d& point : {Eigen::Vector3d(0.03, 0, 0), Eigen::Vector3d(-0.48, 0.02, -0.05)}) {
     EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point}}, Reading::cubic)[0], field), along(point), 1e-10);
+  }
+}
+
+// As they do along the axes of the scene.
+TEST(Probes, ReadFieldsAlongATurnedBarOfOneCellAsFarAsItsLayersDetermineThem) {
+  auto mesh = grid({1, 0.1, 0.1}, 0.1);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const auto along = [](const Eigen::Vector3d& at) { return 1 + std::pow(at.x(), 3) - at.x() * at.x() * at.y() + 2 * at.z(); };
+  const Eigen::VectorXd field = at_nodes(mesh, along);
+  for (const NodeId node : mesh.nodes.ids()) mesh.nodes[node] = turn * mesh.nodes[node];
+  for (const Eigen::Vector3d& at : {Eigen::Vector3d(0.03, 0, 0), Eigen::Vector3d(-0.48, 0.02, -0.05)}) {
+    const Eigen::Vector3d point = turn * at * (1 - 1e-12);
+    EXPECT_NEAR(value_at(locate_probes(mesh, {{"p", point, 1e-9}}, Reading::cubic)[0], field), along(at), 1e-9);
+  }
+}
+
+// Two bars of four by four cells with a slot between them, joined at one end; each has a temperature of its own.
+TEST(Probes, ReadNothingAcrossASlot) {
+  auto mesh = grid({0.9, 0.4, 2}, 0.1);
+  mesh::BlockMesh<3> slotted = mesh;
+  Table<CellId, mesh::Cell> cells;
+  Table<ElementId, mesh::BlockMesh<3>::Element> elements;
+  const auto in_slot = [&](const auto& nodes, std::size_t count) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < count; ++i) middle += mesh.nodes[nodes[i]] / static_cast<double>(count);
+    return std::abs(middle.x()) < 0.05 && middle.z() > -0.5;
+  };
+  for (const CellId cell : mesh.cells.ids()) {
+    if (!in_slot(mesh.cells[cell].nodes, 8)) cells.push_back(mesh.cells[cell]);
+  }
+  const mesh::CellOfElement<3> cell_of(mesh);
+  for (const ElementId element : mesh.elements.ids()) {
+    if (!in_slot(mesh.cells[cell_of[element]].nodes, 8)) elements.push_back(mesh.elements[element]);
+  }
+  slotted.cells = cells;
+  slotted.elements = elements;
+  mesh::Block& block = slotted.blocks[BlockId{0}];
+  block = {block.body, block.nodes, {0, elements.size()}, {0, cells.size()}};
+  const Eigen::VectorXd field = at_nodes(slotted, [](const Eigen::Vector3d& at) { return at.x() < 0 ? 400.0 : 300.0; });
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(-0.1, 0, 0.72), Eigen::Vector3d(-0.07, 0.03, 0.8)}) {
+    EXPECT_NEAR(value_at(locate_probes(slotted, {{"p", point}}, Reading::cubic)[0], field), 400, 1e-9);
+    const Eigen::Vector3d beyond(-point.x(), point.y(), point.z());
+    EXPECT_NEAR(value_at(locate_probes(slotted, {{"p", beyond}}, Reading::cubic)[0], field), 300, 1e-9);
   }
 }
 

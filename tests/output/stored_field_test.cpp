@@ -1,5 +1,7 @@
 #include "engine/output/stored_field.h"
 
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include "engine/output/series.h"
@@ -138,6 +140,48 @@ TEST(StoredField, OfTetrahedraStaysOnItsSideOfAJointInAnyOrderOfTheBodies) {
       }
     }
   }
+}
+
+// A square frame of a third of its width around a core, both with n cells for a third.
+mesh::BlockMesh<2> framed(int n) {
+  mesh::BlockMesh<2> mesh;
+  for (const bool core : {false, true}) {
+    const BodyId body = mesh.bodies.push_back({core ? "core" : "frame", MaterialId{0}, false, {}});
+    const std::size_t first = mesh.nodes.size(), first_element = mesh.elements.size();
+    std::map<std::pair<int, int>, NodeId> nodes;
+    const auto node = [&](int i, int j) {
+      const auto [found, is_new] = nodes.try_emplace({i, j}, NodeId{mesh.nodes.size()});
+      if (is_new) mesh.nodes.push_back(Point<2>(double(i) / n, double(j) / n));
+      return found->second;
+    };
+    for (int i = 0; i < 3 * n; ++i) {
+      for (int j = 0; j < 3 * n; ++j) {
+        if ((i / n == 1 && j / n == 1) != core) continue;
+        mesh.elements.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+        mesh.elements.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+      }
+    }
+    mesh.blocks.push_back({body, {first, mesh.nodes.size()}, {first_element, mesh.elements.size()}});
+  }
+  return mesh;
+}
+
+// The middle of the frame is in the core.
+TEST(StoredField, OfABodyAroundAnotherIsItsOwn) {
+  const auto value = [](const mesh::BlockMesh<2>& mesh, NodeId node) {
+    return node.index() < mesh.blocks[BlockId{0}].nodes.size() ? 300.0 : 400.0;
+  };
+  const auto stored = framed(2);
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directories(folder());
+  Series series(folder(), "heat");
+  std::vector<double> values;
+  for (const NodeId node : stored.nodes.ids()) values.push_back(value(stored, node));
+  series.write(make_grid(stored), {0, {{"temperature", 1, values}}, {}});
+  const auto mesh = framed(3);
+  const NodalField field = read_stored({folder(), {}}, mesh);
+  EXPECT_EQ(field.moved, 0u);
+  for (const NodeId node : mesh.nodes.ids()) EXPECT_NEAR(field.values[node.value()], value(mesh, node), 1e-9) << node.value();
 }
 
 // A cube of two wedges, and each of its halves as hot as its own corners say.

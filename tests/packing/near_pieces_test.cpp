@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/packing/mixed_bodies.h"
+#include "engine/packing/blocks_in_others.h"
 #include "engine/packing/penetration.h"
 #include "tests/rigid/blocks.h"
 
@@ -72,31 +72,40 @@ TEST(NearPairs, OfNoPartsAreNone) {
   EXPECT_TRUE(near_pairs({}, 1).empty());
 }
 
-// Looking only where bodies' boxes meet loses no pair that is in each other.
-TEST(Penetration, OfDifferentBodiesIsThatOfTheDeepestPairOfSuch) {
+// Looking only where boxes lie in each other loses no pair that does.
+TEST(BlocksInOthers, HoldTheDeepestPairOfThoseAskedFor) {
   const auto mesh = scattered(Vector3d(2, 1, 1));
   constexpr double depth = 1e-6;
-  const Penetration found = measure_penetration(mesh, depth, {}, Pairs::of_different_bodies);
   const PieceSet pieces(mesh);
-  double deepest = 0;
-  std::size_t deep = 0;
-  for (const auto& [a, b] : asked_of_all(pieces.parts, 0, Pairs::of_different_bodies)) {
-    const double distance = separation(a->placed, b->placed, 0).distance;
-    deepest = std::max(deepest, -distance);
-    deep += distance < -depth ? 1 : 0;
+  for (const Pairs asked : {Pairs::all, Pairs::with_a_free_block, Pairs::of_different_bodies}) {
+    const std::vector<BlockId> blocks = blocks_in_others(mesh, depth, asked);
+    if (asked == Pairs::all) {
+      EXPECT_LT(blocks.size(), mesh.blocks.size());
+    }
+    const Penetration found = measure_penetration(PieceSet(mesh, blocks), depth, {}, asked);
+    const Penetration expected = measure_penetration(pieces, depth, {}, asked);
+    EXPECT_GT(expected.max, 0.01);
+    EXPECT_EQ(found.max, expected.max);
+    EXPECT_EQ(found.first, expected.first);
+    EXPECT_EQ(found.second, expected.second);
   }
-  EXPECT_GT(deep, 5U);
-  EXPECT_DOUBLE_EQ(found.max, deepest);
 }
 
-TEST(MixedBodies, HoldNoBlockThatOnlyTouchesAnotherBody) {
+TEST(BlocksInOthers, AreNoneThatOnlyTouchOrThatNobodyAsksAbout) {
   mesh::BlockMesh<3> mesh;
   add_box(mesh, Vector3d(4, 4, 1), Vector3d(0, 0, 0), true);
-  add_box(mesh, Vector3d(1, 1, 1), Vector3d(0, 0, 1), false);
-  EXPECT_TRUE(blocks_in_other_bodies(mesh, 1e-6).empty());
-  add_box(mesh, Vector3d(1, 1, 1), Vector3d(0.5, 0, 1.999), false);
-  EXPECT_EQ(blocks_in_other_bodies(mesh, 1e-6), (std::vector{BlockId{1}, BlockId{2}}));
-  EXPECT_TRUE(blocks_in_other_bodies(mesh, 2e-3).empty());
+  const BlockId lying = add_box(mesh, Vector3d(1, 1, 1), Vector3d(0, 0, 1), false);
+  EXPECT_TRUE(blocks_in_others(mesh, 1e-6, Pairs::all).empty());
+  const BlockId other = add_box(mesh, Vector3d(1, 1, 1), Vector3d(0.5, 0, 1.999), false);
+  for (const Pairs asked : {Pairs::all, Pairs::with_a_free_block, Pairs::of_different_bodies}) {
+    EXPECT_EQ(blocks_in_others(mesh, 1e-6, asked), (std::vector{lying, other}));
+    EXPECT_TRUE(blocks_in_others(mesh, 2e-3, asked).empty());
+  }
+  mesh.blocks[other].body = mesh.blocks[lying].body;
+  EXPECT_TRUE(blocks_in_others(mesh, 1e-6, Pairs::of_different_bodies).empty());
+  mesh.bodies[mesh.blocks[lying].body].fixed = true;
+  EXPECT_TRUE(blocks_in_others(mesh, 1e-6, Pairs::with_a_free_block).empty());
+  EXPECT_EQ(blocks_in_others(mesh, 1e-6, Pairs::all), (std::vector{lying, other}));
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST(Penetration, OfBoxesIsTheOverlapOfTheirSides) {
   add_box(mesh, {1, 1, 1}, Vector3d(-0.2, 0, 1.0005), false);  // touches the first within the range
   add_box(mesh, {1, 1, 1}, Vector3d(0, -1.5, 0), false);       // alone
   add_box(mesh, {1, 1, 1}, Vector3d(-0.5, 0, 0), true);        // fixed in the fixed one: nobody's business
-  const Penetration p = measure_penetration(mesh, 1e-3);
+  const Penetration p = measure_penetration(PieceSet(mesh), 1e-3);
   EXPECT_NEAR(p.max, 0.01, 1e-12);
   EXPECT_EQ(p.first, BlockId{0});
   EXPECT_EQ(p.second, BlockId{1});
@@ -283,7 +283,7 @@ TEST(Penetration, OfCrossedEdgesIsTheirDepth) {
   const double half_diagonal = std::sqrt(0.5);
   add_box(mesh, {9, 1, 1}, Pose{Vector3d::Zero(), Eigen::Quaterniond(edge_up_x)}, true);
   add_box(mesh, {1, 9, 1}, Pose{Vector3d(0, 0, 2 * half_diagonal - 0.03), Eigen::Quaterniond(edge_up_y)}, false);
-  EXPECT_NEAR(measure_penetration(mesh, 1e-3).max, 0.03, 1e-12);
+  EXPECT_NEAR(measure_penetration(PieceSet(mesh), 1e-3).max, 0.03, 1e-12);
 }
 
 TEST(Penetration, OfTheElementsOfAMeshIsNothing) {
@@ -293,7 +293,7 @@ TEST(Penetration, OfTheElementsOfAMeshIsNothing) {
   for (const auto& element : mesh.elements) {
     add_tetrahedron(broken, {mesh.nodes[element[0]], mesh.nodes[element[1]], mesh.nodes[element[2]], mesh.nodes[element[3]]});
   }
-  const Penetration p = measure_penetration(broken, 1e-3);
+  const Penetration p = measure_penetration(PieceSet(broken), 1e-3);
   EXPECT_EQ(p.touching, 15U);  // all share the diagonal
   EXPECT_LT(p.max, 1e-12);
 }

@@ -316,7 +316,7 @@ TEST(Settle, BlocksThatAreLostInOnePlaceAreNotInEachOther) {
   const auto packing = settle(mesh, material(0.6), {});
   EXPECT_EQ(packing.settled->lost_blocks.size(), 4U);
   const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
-  EXPECT_GT(packing::measure_penetration(placed, 1e-4).max, 0.01);  // that is what this is about
+  EXPECT_GT(packing::measure_penetration(packing::PieceSet(placed), 1e-4).max, 0.01);  // that is what this is about
   EXPECT_LT(packing.settled->max_penetration, 1e-5);
 }
 

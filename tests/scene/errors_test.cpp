@@ -217,6 +217,16 @@ TEST(SceneErrors, AFallOfMoreStepsThanAnyoneWaitsForIsRefused) {
             "--set settle.step: settle.step is 1e-10 s (must be at least 2e-09 s, for 1e+09 steps to settle.limit)");
 }
 
+TEST(SceneErrors, MoreRowsThanAnyoneWaitsForAreRefused) {
+  EXPECT_EQ(wrong_with(whole_scene, {"heat.until=1 h", "output.every=1e-300 s"}),
+            "--set output.every: output.every is 1e-300 s (must be at least 3.6e-06 s, for 1e+09 rows to heat.until)");
+}
+
+TEST(SceneErrors, AFactorisationOfFourthOrderStepsIsWithoutUse) {
+  EXPECT_THAT(wrong_with(whole_scene, {"heat.space_order=4", "heat.solver=cholesky"}),
+              testing::HasSubstr("heat.solver is without use (of use only without heat.space_order: 4)"));
+}
+
 TEST(SceneErrors, AFallMustLeaveTimeToLetGoAndToRest) {
   EXPECT_EQ(wrong_with(whole_scene, {"settle.limit=2 s", "settle.rest_window=3 s"}),
             "--set settle.limit: settle.limit is 2 s (must be at least settle.rest_window, 3 s: no pile is at rest before)");

@@ -137,6 +137,10 @@ TEST(ReadScene, RotationsAreRotations) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   EXPECT_TRUE((pose("{axis: [0, 0, 7], angle: 90 deg}") * x).isApprox(Eigen::Vector3d::UnitY(), 1e-15));
   EXPECT_TRUE((pose("{axis: [0, 1, 0], angle: 3.141592653589793}") * x).isApprox(-x, 1e-15));
+  for (const char* axis : {"[0, 0, 1e-200]", "[0, 0, 1e200]"}) {
+    EXPECT_TRUE((pose(std::string("{axis: ") + axis + ", angle: 90 deg}") * x).isApprox(Eigen::Vector3d::UnitY(), 1e-15))
+        << axis;
+  }
   EXPECT_TRUE((pose("[0.7071, 0, 0, 0.7071]") * x).isApprox(Eigen::Vector3d::UnitY(), 1e-15));
   EXPECT_NEAR(pose("[0.7071, 0, 0, 0.7071]").rotation.norm(), 1, 1e-15);
 }

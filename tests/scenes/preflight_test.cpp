@@ -8,6 +8,7 @@
 #include "engine/mesh/make_blocks.h"
 #include "engine/packing/packing.h"
 #include "tests/scenes/scene_run.h"
+#include "tools/run/packing_stage.h"
 #include "tools/run/preflight.h"
 #include "tools/scene/read_scene.h"
 
@@ -125,6 +126,16 @@ TEST(Preflight, ARunDoesNotWriteOverWhatItReads) {
   EXPECT_EQ(run_file(folder / "scene.yaml", folder / "more", {"heat.initial={from: " + out.string() + "}"}).exit_status, 0);
 }
 
+// In which a window of rest is longer than the one that is asked for.
+TEST(Preflight, AFallInWeakGravityMustLeaveTimeToRest) {
+  const Scene scene = read_scene_text(settling, ".", {"settle.gravity=[0, 0, -1e-6]", "settle.limit=5 s"});
+  const auto blocks = mesh::make_blocks<3>(scene.bodies, {});
+  EXPECT_THAT([&] { run::check_fall(scene, blocks); },
+              testing::ThrowsMessage<InputError>(HasSubstr("settle.limit is 5 s (must be at least")));
+  const Scene longer = read_scene_text(settling, ".", {"settle.gravity=[0, 0, -1e-6]", "settle.limit=1 h"});
+  EXPECT_NO_THROW(run::check_fall(longer, blocks));
+}
+
 TEST(Preflight, ARunRefusesBeforeAnythingFalls) {
   const auto directory = fresh_directory("preflight");
   EXPECT_THAT(refusal("small_pile", directory, {"heat.boundaries.0.surface=nope"}),
@@ -167,6 +178,9 @@ TEST(Preflight, ARunThatIsRefusedLeavesAnEarlierResultAsItIs) {
   EXPECT_NE(
       refusal_of_file(folder / "scene.yaml", folder / "out", {"bodies.cube.mesh_size=0.05", "heat.boundaries.0.surface=nope"}),
       "accepted");
+  EXPECT_NE(refusal_of_file(folder / "scene.yaml", folder / "out",
+                            {"output.probes={p: {point: [0, 0, 0.1], exact: {expression: 300/x, unit: K}}}"}),
+            "accepted");
   EXPECT_EQ(files(), before);
 }
 

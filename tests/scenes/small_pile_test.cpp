@@ -81,7 +81,8 @@ TEST_F(SmallPile, RefusesADamagedPackingWhereTheSceneNamesIt) {
   std::filesystem::copy(run_->directory / "packing.h5", file);
   std::filesystem::resize_file(file, 1000);
   EXPECT_EQ(refusal("small_pile", directory / "out", {"settle=null", "packing=" + file}),
-            "--set packing: packing is " + file + ", damaged (must be a whole packing). Delete it and settle the scene again");
+            "--set packing: packing is " + file +
+                ", damaged (must be a whole packing). Give the packing.h5 of a run, or settle the scene again");
 }
 
 TEST_F(SmallPile, StatesTheCostOfEveryStage) {

@@ -321,6 +321,19 @@ TEST(ExplicitStep, TheStableStepIsRefusedAboveAndNamesTheBlock) {
   }
 }
 
+// A number of steps beyond the largest integer was none at all.
+TEST(ExplicitStep, MoreStepsThanAnyoneWaitsForAreRefused) {
+  const HeatModel model = rubble_model<2>(10, hot_left);
+  TimeOptions options = times(1, 1, 0.1);
+  options.integrator = Integrator::explicit_euler;
+  for (const double step : {1e-10, 1e-20, 1e-300}) {
+    options.step = step;
+    EXPECT_THAT([&] { HeatRun(model, options); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr("must be at most 1e+09 explicit steps")))
+        << step;
+  }
+}
+
 // No bound is above Gershgorin's, which is at most twice the largest diagonal entry, and no diagonal entry of a symmetric
 // matrix exceeds its largest eigenvalue: so twice the bound is beyond any stable step.
 TEST(ExplicitStep, TheBoundIsStableAndTwiceTheBoundIsNot) {

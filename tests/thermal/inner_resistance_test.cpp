@@ -2,6 +2,7 @@
 #include "thermal/inner_resistance.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -30,6 +31,32 @@ TEST(InnerResistance, OfAnAnisotropicBarIsThatAlongIt) {
     for (const double z : {-1.0, 1.0}) end.add(Point<3>(0.25, 0.05 * y / std::sqrt(3), 0.05 * z / std::sqrt(3)), 0.3);
   }
   EXPECT_NEAR(inside.bulk(end), 0.5 / (3 * 2 * 0.01), 1e-10);
+}
+
+// Squares of 0.02 m: two legs beside each other, joined at one end. The heat of a leg's end has to pass both.
+TEST(InnerResistance, OfAHairpinIsThatOfABarAsLongAsBothLegs) {
+  mesh::BlockMesh<2> mesh;
+  mesh.bodies.push_back({"hairpin", MaterialId{0}, false, {}});
+  std::map<std::pair<int, int>, NodeId> nodes;
+  const auto node = [&](int i, int j) {
+    const auto [found, is_new] = nodes.try_emplace({i, j}, NodeId{mesh.nodes.size()});
+    if (is_new) mesh.nodes.push_back(Point<2>(0.02 * i, 0.02 * j));
+    return found->second;
+  };
+  constexpr int rows = 40;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < (i == 1 ? 1 : rows); ++j) {
+      mesh.elements.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+      mesh.elements.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  }
+  mesh.blocks.push_back({BodyId{0}, {0, mesh.nodes.size()}, {0, mesh.elements.size()}});
+  const InnerResistance<2> inside(mesh, mesh.blocks[BlockId{0}], 5 * Tensor<2>::Identity());
+  PatchMoments<2> end;
+  end.add(Point<2>(0.01, 0.02 * rows) - inside.centroid(), 1);
+  const double length = 2 * 0.02 * rows;
+  EXPECT_GT(inside.bulk(end), length / (3 * 5 * 0.02));
+  EXPECT_LT(inside.bulk(end), 2 * length / (3 * 5 * 0.02));
 }
 
 TEST(InnerResistance, OfASmallPatchIsThatOfADiscOnAHalfSpace) {

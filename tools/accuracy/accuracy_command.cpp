@@ -195,7 +195,7 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_option("--mesh", arguments.ladder.mesh_factors, "factors of every mesh_size (default: 2 1 0.5)")
       ->check(CLI::PositiveNumber);
   command.add_option("--tolerance", arguments.tolerances, "time tolerances (default: 10, 1 and 0.1 times the scene's)");
-  command.add_option("--integrator", arguments.ladder.integrators, "steps in time (default: automatic)");
+  command.add_option("--integrator", arguments.ladder.integrators, "steps in time (default: the scene's)");
   command.add_option("--contact", arguments.ladder.contact_models, "contact models (default: the scene's)");
   command.add_option("--blocks", arguments.ladder.block_models,
                      "how blocks are resolved: meshed, lumped, auto (default: the scene's)");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/mesh/mesh_file.h"
+#include "tools/scene/heat_keys.h"
 
 namespace scree::accuracy {
 
@@ -57,11 +58,11 @@ struct Models {
   std::string integrator;
 };
 
-std::vector<Models> models_of(const LadderOptions& options) {
+std::vector<Models> models_of(const LadderOptions& options, const std::string& own_integrator) {
   std::vector<Models> models;
   for (const std::string& blocks : or_else(options.block_models, {std::string()})) {
     for (const std::string& contact : or_else(options.contact_models, {std::string()})) {
-      for (const std::string& integrator : or_else(options.integrators, {std::string("automatic")})) {
+      for (const std::string& integrator : or_else(options.integrators, {own_integrator})) {
         models.push_back({blocks, contact, integrator});
       }
     }
@@ -104,7 +105,7 @@ std::vector<Rung> ladder_of(const Scene& scene, const LadderOptions& options) {
   std::sort(factors.rbegin(), factors.rend());
   std::sort(tolerances.rbegin(), tolerances.rend());
   std::vector<Rung> ladder;
-  for (const Models& models : models_of(options)) {
+  for (const Models& models : models_of(options, integrator_words.at(static_cast<std::size_t>(scene.heat->time.integrator)))) {
     for (const double factor : factors) {
       // Explicit steps follow from stability, whatever the tolerance.
       const bool chooses_steps = models.integrator != "explicit_euler";
@@ -135,9 +136,20 @@ std::vector<std::string> overrides_of(const Scene& scene, const Rung& rung) {
   if (!scene.heat->time.steady) {
     overrides.push_back(fmt::format("heat.tolerance={:.17g} K", rung.tolerance));
     overrides.push_back("heat.integrator=" + rung.integrator);
+    if (rung.integrator != "explicit_euler" && scene.places.contains("heat.step")) overrides.emplace_back("heat.step=null");
   }
-  if (!rung.block_model.empty()) overrides.push_back("heat.blocks.model=" + rung.block_model);
-  if (!rung.contact_model.empty()) overrides.push_back("contact.model=" + rung.contact_model);
+  // Of all bodies and joints, whatever the scene says of some.
+  if (!rung.block_model.empty()) {
+    overrides.push_back("heat.blocks.model=" + rung.block_model);
+    if (scene.places.contains("heat.blocks.bodies")) overrides.emplace_back("heat.blocks.bodies=null");
+  }
+  if (!rung.contact_model.empty()) {
+    overrides.push_back("contact.model=" + rung.contact_model);
+    for (std::size_t i = 0; i < scene.heat->joint.rules.size(); ++i) {
+      const std::string model = fmt::format("contact.joints[{}].model", i);
+      if (scene.places.contains(model)) overrides.push_back(model + "=null");
+    }
+  }
   return overrides;
 }
 

@@ -37,7 +37,7 @@ void measure(const std::string& name, const std::function<packing::Packing<3>()>
   const double spent = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
   const mesh::BlockMesh<3> placed = packing::placed_mesh(packing);
   const double edge = mesh::mean_edge(packing.mesh);
-  const packing::Penetration depth = packing::measure_penetration(placed, 0.01 * edge);
+  const packing::Penetration depth = packing::measure_penetration(packing::PieceSet(placed), 0.01 * edge);
   double top = 0;
   for (const Point<3>& node : placed.nodes) top = std::max(top, node.z());
   fmt::print("{},{:.4f},{:.4f},{:.4f},{:.5f},{},{:.3f}\n", name, wall, spent, 100 * depth.max / edge, 100 * depth.mean / edge,

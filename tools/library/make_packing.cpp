@@ -17,7 +17,7 @@ packing::Packing<dim> make_packing(const Scene& scene, const std::function<void(
   packing::Packing<dim> packing;
   if (scene.settle) {
     if constexpr (dim == 3) {
-      run::check_clearance(scene, blocks);
+      run::check_fall(scene, blocks);
       const auto tell = [&](double time, double) {
         if (progress) progress(time);
       };

@@ -43,7 +43,8 @@ std::vector<output::Probe<dim>> probes_of_rows(std::vector<output::Probe<dim>> p
 bool frame_due(const Scene& scene, double time) {
   const double every = scene.frames_every;
   if (every == 0 || time >= scene.heat->time.until) return true;
-  return std::abs(time / every - std::round(time / every)) < 1e-9;
+  const double turns = std::round(time / every);
+  return std::abs(time / every - turns) < 1e-9 && (turns > 0 || time == 0);
 }
 
 // Calls both, at the same time if there are threads for it.

@@ -173,6 +173,8 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   outcome.model = context.stage("assemble", fmt::format("{} contacts", outcome.pile.contacts.contacts.size()),
                                 [&] { return heat_model(scene, outcome.pile); });
   if (const auto window = effective_window<dim>(scene)) {
+    for (const std::string& sentence : window_beyond_blocks(outcome.pile.mesh, *scene.effective_window))
+      context.remark(sentence);
     outcome.effective = context.stage("homogenise", fmt::format("{} steady states", 3 * dim), [&] {
       return thermal::effective_conductivity(outcome.pile.mesh, scene.materials,
                                              *undriven_model(scene, outcome.pile, outcome.model), *window);

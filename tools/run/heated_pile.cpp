@@ -34,6 +34,13 @@ output::Reading probe_reading(const Scene& scene) {
 }
 
 template <int dim>
+std::vector<output::Probe<dim>> located_probes(const Scene& scene, const mesh::BlockMesh<dim>& mesh) {
+  auto probes = output::locate_probes(mesh, scene.probes, probe_reading(scene));
+  for (const output::Probe<dim>& probe : probes) output::exact_at(probe, 0);
+  return probes;
+}
+
+template <int dim>
 std::optional<Aabb<dim>> effective_window(const Scene& scene) {
   if (!scene.effective_window) return std::nullopt;
   const Aabb<3>& window = *scene.effective_window;
@@ -48,7 +55,7 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
   pile.mesh = std::move(blocks.mesh);
   pile.places = std::move(blocks.places);
   pile.settled = packing.settled.has_value();
-  pile.probes = output::locate_probes(pile.mesh, scene.probes, probe_reading(scene));
+  pile.probes = located_probes(scene, pile.mesh);
   pile.start = earlier_temperatures(scene, pile.mesh, note);
   pile.key = heat_key(scene, packing, pile.start ? &*pile.start : nullptr);
   return pile;
@@ -96,6 +103,7 @@ std::shared_ptr<const thermal::HeatModel> undriven_model(const Scene& scene, con
 }
 
 #define SCREE_INSTANTIATE(dim)                                                                                 \
+  template std::vector<output::Probe<dim>> located_probes<dim>(const Scene&, const mesh::BlockMesh<dim>&);     \
   template HeatedPile<dim> placed_pile<dim>(const Scene&, const packing::Packing<dim>&,                        \
                                             const std::function<void(const std::string&)>&);                   \
   template std::optional<Aabb<dim>> effective_window<dim>(const Scene&);                                       \

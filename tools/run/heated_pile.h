@@ -39,6 +39,10 @@ HeatedPile<dim> placed_pile(const Scene& scene, const packing::Packing<dim>& pac
 // How probes are read: from polynomials where nodes are worth it.
 output::Reading probe_reading(const Scene& scene);
 
+// The scene's probes. Throws InputError for one that is nowhere, or whose exact temperature has no value at the start.
+template <int dim>
+std::vector<output::Probe<dim>> located_probes(const Scene& scene, const mesh::BlockMesh<dim>& mesh);
+
 // Of which the effective conductivity is asked, if it is.
 template <int dim>
 std::optional<Aabb<dim>> effective_window(const Scene& scene);

@@ -11,6 +11,7 @@
 #include "engine/mesh/make_blocks.h"
 #include "engine/output/read_vtu.h"
 #include "engine/output/series.h"
+#include "engine/rigid/rest_window.h"
 #include "engine/rigid/settle.h"
 #include "tools/run/begin_results.h"
 #include "tools/run/frames.h"
@@ -43,6 +44,46 @@ void compare_making(const mesh::Body& body, const mesh::BodySpec& spec, mesh::Pl
                         fmt::format("must be as in the packing: {}", difference.first),
                         "Say what the scene that made the packing says, or settle anew"});
   }
+}
+
+// Heat is looked for across gaps of contact.tolerance times the length of an element at a surface: blocks held further apart
+// would not feel each other. Without heat a clearance must be small beside the blocks.
+void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
+  constexpr double small = 0.1;  // of the length of an element
+  const double clearance = scene.settle->options.clearance;
+  if (clearance == 0) return;
+  double shortest = std::numeric_limits<double>::infinity();
+  const mesh::CharacteristicLength<3> lengths(blocks);
+  for (const auto& face : mesh::boundary_faces(blocks)) shortest = std::min(shortest, lengths.of(face.element));
+  const double most = (scene.contact ? 0.5 * scene.contact->tolerance : small) * shortest;
+  if (clearance <= most) return;
+  Problem problem;
+  problem.where = scene.settle->clearance_at;
+  problem.key = "settle.clearance";
+  problem.value = fmt::format("{:g} m", clearance);
+  problem.rule =
+      scene.contact
+          ? fmt::format("must be at most {:.3g} m, half of the gap across which contacts are found at the smallest elements",
+                        most)
+          : fmt::format("must be at most {:.3g} m, a tenth of the smallest elements at a surface", most);
+  problem.suggestion = scene.contact ? "Lower it, or raise contact.tolerance" : "Lower it";
+  throw InputError(problem);
+}
+
+// What settle.limit alone cannot be told: in weak gravity a window is longer than the one that is asked for.
+void check_rest_window(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
+  const rigid::SettleOptions& options = scene.settle->options;
+  const double window = rigid::rest_window(options, mesh::mean_edge(blocks));
+  if (scene.settle->accept_moving || options.limit >= window) return;
+  Problem problem;
+  problem.key = "settle.limit";
+  problem.value = fmt::format("{:g} s", options.limit);
+  problem.rule = fmt::format(
+      "must be at least {:.3g} s: so long must a pile be at rest where gravity moves a block by settle.rest_displacement so "
+      "slowly",
+      window);
+  problem.suggestion = "Raise it, or lower settle.rest_displacement";
+  throw InputError(problem);
 }
 
 // What is wrong with the file is said at the place where the scene names it.
@@ -109,7 +150,7 @@ std::optional<packing::Packing<3>> earlier_packing(RunContext& context) {
 }
 
 PackingOutcome<3> settled(RunContext& context, const mesh::BlockMesh<3>& blocks, const std::string& key) {
-  check_clearance(context.scene, blocks);
+  check_fall(context.scene, blocks);
   check_heat(context.scene, blocks);
   // Of blocks that are let go one after the other those that wait may lie where others were before.
   if (context.scene.settle->options.release_time == 0) note_overlaps(context, blocks, packing::Pairs::with_a_free_block);
@@ -157,28 +198,9 @@ Table<BodyId, mesh::Body> adopted_bodies(const Scene& scene, const packing::Pack
   return bodies;
 }
 
-// Heat is looked for across gaps of contact.tolerance times the length of an element at a surface: blocks held further apart
-// would not feel each other. Without heat a clearance must be small beside the blocks.
-void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
-  constexpr double small = 0.1;  // of the length of an element
-  const double clearance = scene.settle->options.clearance;
-  if (clearance == 0) return;
-  double shortest = std::numeric_limits<double>::infinity();
-  const mesh::CharacteristicLength<3> lengths(blocks);
-  for (const auto& face : mesh::boundary_faces(blocks)) shortest = std::min(shortest, lengths.of(face.element));
-  const double most = (scene.contact ? 0.5 * scene.contact->tolerance : small) * shortest;
-  if (clearance <= most) return;
-  Problem problem;
-  problem.where = scene.settle->clearance_at;
-  problem.key = "settle.clearance";
-  problem.value = fmt::format("{:g} m", clearance);
-  problem.rule =
-      scene.contact
-          ? fmt::format("must be at most {:.3g} m, half of the gap across which contacts are found at the smallest elements",
-                        most)
-          : fmt::format("must be at most {:.3g} m, a tenth of the smallest elements at a surface", most);
-  problem.suggestion = scene.contact ? "Lower it, or raise contact.tolerance" : "Lower it";
-  throw InputError(problem);
+void check_fall(const Scene& scene, const mesh::BlockMesh<3>& blocks) {
+  check_clearance(scene, blocks);
+  check_rest_window(scene, blocks);
 }
 
 template <int dim>

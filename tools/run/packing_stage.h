@@ -24,8 +24,8 @@ Table<BodyId, mesh::Body> adopted_bodies(const Scene& scene, const packing::Pack
 template <int dim>
 std::size_t free_blocks(const mesh::BlockMesh<dim>& mesh);
 
-// Throws InputError if blocks would come to rest too far apart for the scene.
-void check_clearance(const Scene& scene, const mesh::BlockMesh<3>& blocks);
+// Throws InputError if blocks would come to rest too far apart for the scene, or not within the time that it gives them.
+void check_fall(const Scene& scene, const mesh::BlockMesh<3>& blocks);
 
 // The packing file the scene names, with the scene's bodies.
 template <int dim>

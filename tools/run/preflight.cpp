@@ -42,7 +42,7 @@ void check_heat(const Scene& scene, const mesh::BlockMesh<dim>& blocks) {
   options.initial_field = earlier_field(scene, blocks, !moving.empty());
   thermal::check_heat_options(blocks, scene.materials, options, moving);
   if (!moving.empty()) return;
-  for (const auto& probe : output::locate_probes(blocks, scene.probes, probe_reading(scene))) output::exact_at(probe, 0);
+  [[maybe_unused]] const auto probes = located_probes(scene, blocks);
   if (const auto window = effective_window<dim>(scene)) thermal::parts_in(blocks, *window);
 }
 

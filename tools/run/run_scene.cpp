@@ -93,6 +93,7 @@ Ending run_stages(RunContext& context, Json& summary) {
   add_heat(summary, scene, heat);
   auto reasons = unsound(scene, heat);
   if (!reasons.empty()) return {"not_converged", 1, std::move(reasons)};
+  if (const auto hidden = hidden_by_rounding(scene, heat)) context.remark(*hidden);
   return {"complete", 0, {}};
 }
 

@@ -35,4 +35,8 @@ std::vector<std::string> unsound(const Scene& scene, const packing::Packing<dim>
 template <int dim>
 std::vector<std::string> unsound(const Scene& scene, const HeatOutcome<dim>& heat);
 
+// What rounding hides of the energy ledger of a sound run, if that is more than its limit.
+template <int dim>
+std::optional<std::string> hidden_by_rounding(const Scene& scene, const HeatOutcome<dim>& heat);
+
 }  // namespace scree::run

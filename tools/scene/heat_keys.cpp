@@ -133,8 +133,8 @@ Keys time_keys() {
           .fallback(with_unit(by_default.tolerance, "K"))
           .only({in_time}),
       row("heat.integrator", word, "Steps in time.")
-          .words({"automatic", "implicit", "stabilised_explicit", "explicit_euler"})
-          .fallback("automatic")
+          .words({integrator_words.begin(), integrator_words.end()})
+          .fallback(integrator_words.front())
           .only({in_time}),
       row("heat.space_order", word,
           "How the error goes down with the mesh size: by its square, or in grids of hexahedra by its fourth power.")
@@ -144,7 +144,8 @@ Keys time_keys() {
       row("heat.solver", word, "What solves implicit steps and the steady state: a factorisation or algebraic multigrid.")
           .words({"auto", "cholesky", "multigrid"})
           .fallback("auto")
-          .only({without("explicit_euler"), without("stabilised_explicit")}),
+          .only({without("explicit_euler"), without("stabilised_explicit"),
+                 Condition{.key = "heat.space_order", .word = "4", .absent = true}}),
       row("heat.step", quantity, "Time step; equal parts of output.every that are no longer.", q::time, positive)
           .otherwise("largest stable one")
           .only({in_time, Condition{"heat.integrator", "explicit_euler"}}),

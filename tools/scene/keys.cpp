@@ -109,15 +109,16 @@ Keys shape_keys() {
                    row("bodies.*.cylinder.centre", quantity, centre, q::length).count(vector).required().only(one_copy),
                });
   append(keys, rotation("bodies.*.cylinder", one_copy));
-  append(keys, {
-                   row("bodies.*.mesh", section, "A closed surface or a volume mesh from a file.").required().choice("shape"),
-                   row("bodies.*.mesh.file", path, "An .stl surface, or a Gmsh .msh 4 or .vtu mesh.").required(),
-                   row("bodies.*.mesh.scale", quantity, "Length of the file's unit.", q::length, positive).fallback("1 m"),
-                   row("bodies.*.mesh.position", quantity, "Where the file's origin goes.", q::length)
-                       .count(vector)
-                       .required()
-                       .only(one_copy),
-               });
+  append(keys,
+         {
+             row("bodies.*.mesh", section, "A closed surface or a volume mesh from a file.").required().choice("shape"),
+             row("bodies.*.mesh.file", path, "An .stl surface, or a Gmsh .msh 4 or .vtu mesh.").required(),
+             row("bodies.*.mesh.scale", quantity, "Length of the file's unit.", q::length, Range{.low = 1e-30}).fallback("1 m"),
+             row("bodies.*.mesh.position", quantity, "Where the file's origin goes.", q::length)
+                 .count(vector)
+                 .required()
+                 .only(one_copy),
+         });
   append(keys, rotation("bodies.*.mesh", one_copy));
   return keys;
 }
@@ -247,7 +248,7 @@ Keys contact_keys() {
           Range{.low = 0, .high = 1, .low_open = true, .high_open = true})
           .fallback(fmt::format("{}", by_default.indentation)),
       row("contact.tolerance", quantity, "Largest gap or depth that counts as touching, in edge lengths of the element.",
-          q::number, positive)
+          q::number, Range{.low = 0, .high = 100, .low_open = true})
           .fallback(fmt::format("{}", by_default.tolerance)),
       row("contact.stiffness_factor", quantity, "Factor beta of a contact's conductance, beta k/dL per area.", q::number,
           not_negative)
@@ -301,7 +302,8 @@ Keys output_keys() {
       row("output.probes.*.point", quantity, "Where it is.", q::length).count(vector).required(),
       row("output.probes.*.reach", quantity, "How far it may be moved to lie in a block.", q::length, not_negative)
           .fallback(with_unit(output::ProbeSpec{}.reach, "m")),
-      row("output.probes.*.exact", quantity, "The temperature there as known from elsewhere, to compare with.", q::temperature)
+      row("output.probes.*.exact", quantity, "The temperature there as known from elsewhere, to compare with.", q::temperature,
+          not_negative)
           .depends(Depends::on_place_and_time)
           .otherwise("not known"),
   };

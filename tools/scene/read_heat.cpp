@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/base/nearest.h"
+#include "tools/scene/heat_keys.h"
 #include "tools/scene/sections.h"
 
 namespace scree {
@@ -199,10 +200,9 @@ thermal::BlockOptions read_blocks(const Checked& heat, const Names& names, Probl
 }
 
 thermal::Integrator read_integrator(const std::string& word) {
-  using enum thermal::Integrator;
-  if (word == "implicit") return implicit;
-  if (word == "stabilised_explicit") return stabilised_explicit;
-  return word == "explicit_euler" ? explicit_euler : automatic;
+  const auto found = std::find(integrator_words.begin(), integrator_words.end(), word);
+  return found == integrator_words.end() ? thermal::Integrator::automatic
+                                         : static_cast<thermal::Integrator>(found - integrator_words.begin());
 }
 
 thermal::LinearSolver read_solver(const std::string& word) {

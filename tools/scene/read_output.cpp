@@ -13,6 +13,7 @@ namespace {
 // of probes.csv cost next to nothing.
 constexpr int frames_by_default = 12;
 constexpr int rows_by_default = 60;
+constexpr double most_rows = 1e9;  // more are none that anyone waits for
 
 CheckedEntry interval(const std::string& name, Checked value, const SourceLocation& where) {
   value.path = "output." + name;
@@ -43,6 +44,14 @@ void fill_in_intervals(Checked& checked) {
     if (section.name != "output" || section.value.find("every") != nullptr) continue;
     add_entries(section.value, scene_keys(), intervals(section, until));
   }
+}
+
+void check_rows(const Checked& output, double until, Problems& problems) {
+  const Checked& every = output.at("every");
+  if (!every.sound || until <= most_rows * every.number()) return;
+  problems.push_back(
+      every.problem(fmt::format("{:g} s", every.number()),
+                    fmt::format("must be at least {:g} s, for {:g} rows to heat.until", until / most_rows, most_rows)));
 }
 
 double read_frames_every(const Checked& output, Problems& problems) {

@@ -106,6 +106,7 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   if (const Checked* contact = checked.find("contact")) scene.contact = read_contact(*contact);
   if (const Checked* heat = checked.find("heat")) {
     scene.heat = read_heat(checked, problems);
+    if (!scene.heat->time.steady) check_rows(checked.at("output"), scene.heat->time.until, problems);
     scene.effective_window = read_effective_window(*heat, scene.dimension, problems);
     scene.initial_field = read_initial_field(heat->at("initial"));
   }

@@ -34,11 +34,11 @@ Eigen::Quaterniond read_rotation(const Checked* rotation, int dimension, Problem
     const Checked& axis = rotation->at("axis");
     if (dimension == 3 && !axis.sound) return result;
     const Eigen::Vector3d direction = dimension == 2 ? Eigen::Vector3d::UnitZ() : axis.vector();
-    if (direction.norm() == 0) {
+    if (direction.isZero(0)) {
       problems.push_back(axis.problem("zero", "must have a direction"));
       return result;
     }
-    return Eigen::Quaterniond(Eigen::AngleAxisd(rotation->at("angle").number(), direction.normalized()));
+    return Eigen::Quaterniond(Eigen::AngleAxisd(rotation->at("angle").number(), direction.stableNormalized()));
   }
   const std::vector<double>& q = rotation->numbers;
   result = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);

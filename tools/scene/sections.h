@@ -26,6 +26,8 @@ std::optional<output::StoredField> read_initial_field(const Checked& initial);
 // Gives a scene with heat in time the intervals between outputs that it does not name.
 void fill_in_intervals(Checked& checked);
 
+// Refuses intervals that no run gets to the end of.
+void check_rows(const Checked& output, double until, Problems& problems);
 double read_frames_every(const Checked& output, Problems& problems);
 std::vector<output::ProbeSpec> read_probes(const Checked& section, Problems& problems);
 

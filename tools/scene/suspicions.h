@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/checked_input.h"
-#include "engine/packing/near_pieces.h"
+#include "engine/packing/asked_pairs.h"
 #include "tools/scene/scene.h"
 
 namespace scree {

@@ -5,25 +5,14 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
-#include "engine/packing/mixed_bodies.h"
+#include "engine/packing/blocks_in_others.h"
+#include "engine/packing/near_boxes.h"
 #include "engine/packing/penetration.h"
 #include "tools/scene/suspicions.h"
 
 namespace scree {
 
 namespace {
-
-template <int dim>
-using Boxes = Table<BlockId, Aabb<dim>>;
-
-template <int dim>
-Boxes<dim> block_boxes(const mesh::BlockMesh<dim>& mesh) {
-  Boxes<dim> boxes(mesh.blocks.size());
-  for (const BlockId block : mesh.blocks.ids()) {
-    for (const NodeId node : mesh.blocks[block].nodes) boxes[block].extend(mesh.nodes[node]);
-  }
-  return boxes;
-}
 
 const std::string& body_name(const auto& mesh, BlockId block) {
   return mesh.bodies[mesh.blocks[block].body].name;
@@ -64,19 +53,6 @@ bool reaches_into(const mesh::BlockMesh<2>& mesh, BlockId a, BlockId b) {
   return false;
 }
 
-// Pairs of blocks, by boxes sorted along x.
-std::vector<std::pair<BlockId, BlockId>> near_pairs(const mesh::BlockMesh<2>& mesh, std::vector<BlockId> order) {
-  const Boxes<2> boxes = block_boxes(mesh);
-  std::stable_sort(order.begin(), order.end(), [&](BlockId a, BlockId b) { return boxes[a].min().x() < boxes[b].min().x(); });
-  std::vector<std::pair<BlockId, BlockId>> pairs;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min().x() < boxes[order[i]].max().x(); ++j) {
-      if (boxes[order[i]].intersects(boxes[order[j]])) pairs.emplace_back(order[i], order[j]);
-    }
-  }
-  return pairs;
-}
-
 // A box seen along gravity: its footprint, and its lowest point.
 struct Shadow {
   Aabb<2> footprint;
@@ -98,24 +74,29 @@ Shadow shadow_of(const mesh::BlockMesh<3>& mesh, BlockId block, const Eigen::Mat
 // The deepest pair only: the others are of its kind, and mending the scene shows the next.
 template <>
 Sentences overlapping_blocks(const mesh::BlockMesh<3>& mesh, packing::Pairs asked) {
-  const double edge = mesh::mean_edge(mesh);
-  const packing::Penetration deepest = packing::measure_penetration(mesh, rounding * edge, {}, asked);
-  if (deepest.max <= rounding * edge) return {};
+  const double least = rounding * mesh::mean_edge(mesh);
+  const packing::PieceSet pieces(mesh, packing::blocks_in_others(mesh, least, asked));
+  const packing::Penetration deepest = packing::measure_penetration(pieces, least, {}, asked);
+  if (deepest.max <= least) return {};
   return {overlap_sentence(mesh, deepest.first, deepest.second, fmt::format(" by {:.3g} m", deepest.max))};
 }
 
-// Found by points inside elements: two slim blocks that cross without holding each other's nodes are missed.
+// The first pair only. Found by points inside elements: two slim blocks that cross without holding each other's nodes are
+// missed.
 template <>
 Sentences overlapping_blocks(const mesh::BlockMesh<2>& mesh, packing::Pairs asked) {
-  const bool across_bodies = asked == packing::Pairs::of_different_bodies;
-  const auto ids = mesh.blocks.ids();
-  const std::vector<BlockId> blocks = across_bodies ? packing::blocks_in_other_bodies(mesh, rounding * mesh::mean_edge(mesh))
-                                                    : std::vector<BlockId>(ids.begin(), ids.end());
-  for (const auto& [a, b] : near_pairs(mesh, blocks)) {
-    if (across_bodies && mesh.blocks[a].body == mesh.blocks[b].body) continue;
-    if (reaches_into(mesh, a, b) || reaches_into(mesh, b, a)) return {overlap_sentence(mesh, a, b, "")};
-  }
-  return {};
+  const double least = rounding * mesh::mean_edge(mesh);
+  const std::vector<BlockId> blocks = packing::blocks_in_others(mesh, least, asked);
+  const auto boxes = packing::block_boxes(mesh);
+  std::vector<Aabb<2>> near;
+  for (const BlockId block : blocks) near.push_back(boxes[block]);
+  Sentences sentences;
+  packing::for_near_boxes<2>(near, -least, [&](std::size_t i, std::size_t j) {
+    const auto [a, b] = std::minmax(blocks[i], blocks[j]);
+    if (!sentences.empty() || !packing::is_asked(asked, packing::owner_of(mesh, a), packing::owner_of(mesh, b))) return;
+    if (reaches_into(mesh, a, b) || reaches_into(mesh, b, a)) sentences.push_back(overlap_sentence(mesh, a, b, ""));
+  });
+  return sentences;
 }
 
 Sentences falling_forever(const mesh::BlockMesh<3>& mesh, const Eigen::Vector3d& gravity) {
