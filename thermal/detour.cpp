@@ -1,28 +1,35 @@
 #include "thermal/detour.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <queue>
+
+#include "engine/base/grouped.h"
 
 namespace scree::thermal {
 
 namespace {
 
-// Nodes of a block by their places in it, and which have an edge in common.
+// Nodes of a block by their places in it.
 template <int dim>
 class Edges {
  public:
-  Edges(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block)
-      : mesh_(mesh), first_(block.nodes.first()), starts_(block.nodes.size() + 1, 0) {
-    for_edges(block, [&](std::size_t from, std::size_t) { ++starts_[from + 1]; });
-    for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-    others_.resize(starts_.back());
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for_edges(block, [&](std::size_t from, std::size_t to) { others_[next[from]++] = to; });
+  Edges(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block) : mesh_(mesh), nodes_(block.nodes) {
+    others_ = grouped<std::size_t>(1, nodes_.size(), [&](std::size_t, const auto& visit) {
+      for (const ElementId element : block.elements) {
+        for (const NodeId from : mesh.elements[element]) {
+          for (const NodeId to : mesh.elements[element]) {
+            if (from != to) visit(static_cast<std::uint32_t>(from.index() - nodes_.first()), to.index() - nodes_.first());
+          }
+        }
+      }
+    });
   }
 
-  [[nodiscard]] const Point<dim>& at(std::size_t node) const { return mesh_.nodes[NodeId{first_ + node}]; }
-  [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
+  [[nodiscard]] const Point<dim>& at(std::size_t node) const { return mesh_.nodes[NodeId{nodes_.first() + node}]; }
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
   // Of all nodes from one of them along edges [m] (Dijkstra); infinite where none lead.
   [[nodiscard]] std::vector<double> ways_from(std::size_t start) const {
@@ -35,31 +42,20 @@ class Edges {
       const auto [far, node] = next.top();
       next.pop();
       if (far > way[node]) continue;
-      for (std::size_t k = starts_[node]; k < starts_[node + 1]; ++k) {
-        const double through = far + (at(others_[k]) - at(node)).norm();
-        if (through >= way[others_[k]]) continue;
-        way[others_[k]] = through;
-        next.emplace(through, others_[k]);
+      for (const std::size_t other : others_.of(node)) {
+        const double through = far + (at(other) - at(node)).norm();
+        if (through >= way[other]) continue;
+        way[other] = through;
+        next.emplace(through, other);
       }
     }
     return way;
   }
 
  private:
-  template <class Visit>
-  void for_edges(const mesh::Block& block, const Visit& visit) const {
-    for (const ElementId element : block.elements) {
-      for (const NodeId from : mesh_.elements[element]) {
-        for (const NodeId to : mesh_.elements[element]) {
-          if (from != to) visit(from.index() - first_, to.index() - first_);
-        }
-      }
-    }
-  }
-
   const mesh::BlockMesh<dim>& mesh_;
-  std::size_t first_;
-  std::vector<std::size_t> starts_, others_;
+  IdRange<NodeId> nodes_;
+  Grouped<std::size_t, std::size_t> others_;  // which have an edge in common with each
 };
 
 std::size_t furthest(const std::vector<double>& way) {

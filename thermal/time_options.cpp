@@ -21,13 +21,8 @@ TimeOptions checked(const TimeOptions& options) {
   return options;
 }
 
-namespace {
-
-constexpr double most_steps = 1e9;  // of a run: more are none that anyone waits for
-
-}  // namespace
-
 double explicit_step(const HeatModel& model, const TimeOptions& options) {
+  constexpr double most_steps = 1e9;  // of a run: more are none that anyone waits for
   const StableStep stable = stable_step(model);
   const double step = options.step.value_or(stable.step);
   if (step > stable.step) {

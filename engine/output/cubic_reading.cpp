@@ -74,17 +74,18 @@ struct Surroundings {
   Surroundings(const mesh::BlockMesh<dim>& mesh, BlockId in, CellId cell, const Point<dim>& point) {
     const mesh::Block& block = mesh.blocks[in];
     const Eigen::Matrix<double, dim, dim> to_cells = axes_of<dim>(mesh, mesh.cells[cell]).inverse();
+    const auto place_of = [&](NodeId node) -> Point<dim> { return to_cells * (mesh.nodes[node] - point); };
     std::vector<int> away(block.nodes.size(), too_far);
     for (const NodeId node : block.nodes) {
-      const Point<dim> place = to_cells * (mesh.nodes[node] - point);
-      if (place.cwiseAbs().maxCoeff() <= largest_reach) away[node.index() - block.nodes.first()] = not_reached;
+      if (place_of(node).cwiseAbs().maxCoeff() <= largest_reach) away[node.index() - block.nodes.first()] = not_reached;
     }
     count_steps(mesh, block, cell, away);
     for (const NodeId node : block.nodes) {
-      if (away[node.index() - block.nodes.first()] < 0) continue;
+      const int step = away[node.index() - block.nodes.first()];
+      if (step < 0) continue;
       nodes.push_back(node);
-      places.push_back(to_cells * (mesh.nodes[node] - point));
-      steps.push_back(away[node.index() - block.nodes.first()]);
+      places.push_back(place_of(node));
+      steps.push_back(step);
     }
   }
 
@@ -95,7 +96,6 @@ struct Surroundings {
       if (places[i].cwiseAbs().maxCoeff() > reach || steps[i] > static_cast<int>(reach)) continue;
       near.nodes.push_back(nodes[i]);
       near.places.push_back(places[i]);
-      near.steps.push_back(steps[i]);
     }
     return near;
   }

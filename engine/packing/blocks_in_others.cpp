@@ -8,10 +8,9 @@ namespace scree::packing {
 
 namespace {
 
-template <int dim>
-void mark_in_blocks(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Aabb<dim>>& boxes, double depth, Pairs asked,
+void mark_in_blocks(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Aabb<3>>& boxes, double depth, Pairs asked,
                     Table<BlockId, char>& marked) {
-  for_near_boxes<dim>(boxes.raw(), -depth, [&](std::size_t i, std::size_t j) {
+  for_near_boxes<3>(boxes.raw(), -depth, [&](std::size_t i, std::size_t j) {
     const BlockId a{i}, b{j};
     if (!is_asked(asked, owner_of(mesh, a), owner_of(mesh, b))) return;
     marked[a] = 1;
@@ -20,20 +19,19 @@ void mark_in_blocks(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Aabb<
 }
 
 // A body's box holds those of its blocks: where bodies are apart, no block is looked at.
-template <int dim>
-void mark_in_bodies(const mesh::BlockMesh<dim>& mesh, const Table<BlockId, Aabb<dim>>& boxes, double depth,
+void mark_in_bodies(const mesh::BlockMesh<3>& mesh, const Table<BlockId, Aabb<3>>& boxes, double depth,
                     Table<BlockId, char>& marked) {
-  Table<BodyId, Aabb<dim>> bodies(mesh.bodies.size());
+  Table<BodyId, Aabb<3>> bodies(mesh.bodies.size());
   for (const BlockId block : mesh.blocks.ids()) bodies[mesh.blocks[block].body].extend(boxes[block]);
   Table<BodyId, std::vector<BodyId>> others(mesh.bodies.size());
-  for_near_boxes<dim>(bodies.raw(), -depth, [&](std::size_t i, std::size_t j) {
+  for_near_boxes<3>(bodies.raw(), -depth, [&](std::size_t i, std::size_t j) {
     others[BodyId{i}].emplace_back(j);
     others[BodyId{j}].emplace_back(i);
   });
   for (const BlockId block : mesh.blocks.ids()) {
     const std::vector<BodyId>& near = others[mesh.blocks[block].body];
     marked[block] = std::any_of(near.begin(), near.end(), [&](BodyId other) {
-      const Aabb<dim> common = boxes[block].intersection(bodies[other]);
+      const Aabb<3> common = boxes[block].intersection(bodies[other]);
       return (common.sizes().array() >= depth).all();
     });
   }
@@ -50,9 +48,8 @@ Table<BlockId, Aabb<dim>> block_boxes(const mesh::BlockMesh<dim>& mesh) {
   return boxes;
 }
 
-template <int dim>
-std::vector<BlockId> blocks_in_others(const mesh::BlockMesh<dim>& mesh, double depth, Pairs asked) {
-  const Table<BlockId, Aabb<dim>> boxes = block_boxes(mesh);
+std::vector<BlockId> blocks_in_others(const mesh::BlockMesh<3>& mesh, double depth, Pairs asked) {
+  const Table<BlockId, Aabb<3>> boxes = block_boxes(mesh);
   Table<BlockId, char> marked(mesh.blocks.size(), 0);
   if (asked == Pairs::of_different_bodies) {
     mark_in_bodies(mesh, boxes, depth, marked);
@@ -68,7 +65,5 @@ std::vector<BlockId> blocks_in_others(const mesh::BlockMesh<dim>& mesh, double d
 
 template Table<BlockId, Aabb<2>> block_boxes(const mesh::BlockMesh<2>&);
 template Table<BlockId, Aabb<3>> block_boxes(const mesh::BlockMesh<3>&);
-template std::vector<BlockId> blocks_in_others(const mesh::BlockMesh<2>&, double, Pairs);
-template std::vector<BlockId> blocks_in_others(const mesh::BlockMesh<3>&, double, Pairs);
 
 }  // namespace scree::packing

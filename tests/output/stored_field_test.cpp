@@ -45,16 +45,22 @@ std::filesystem::path folder() {
   return test::temp_folder() / "stored";
 }
 
-// A series of two times, 0 and 60 s.
-void store(const mesh::BlockMesh<2>& mesh) {
+// A series of these times, of temperatures by node and time.
+template <int dim, class Value>
+void store(const mesh::BlockMesh<dim>& mesh, const std::vector<double>& times, const Value& value) {
   std::filesystem::remove_all(folder());
   std::filesystem::create_directories(folder());
   Series series(folder(), "heat");
-  for (const double time : {0.0, 60.0}) {
+  for (const double time : times) {
     std::vector<double> values;
-    for (const NodeId node : mesh.nodes.ids()) values.push_back(exact(mesh, node, time));
+    for (const NodeId node : mesh.nodes.ids()) values.push_back(value(node, time));
     series.write(make_grid(mesh), {time, {{"temperature", 1, values}}, {}});
   }
+}
+
+// Of two times, 0 and 60 s.
+void store(const mesh::BlockMesh<2>& mesh) {
+  store(mesh, {0.0, 60.0}, [&](NodeId node, double time) { return exact(mesh, node, time); });
 }
 
 double largest_error(const NodalField& field, const mesh::BlockMesh<2>& mesh, double time) {
@@ -125,12 +131,7 @@ TEST(StoredField, OfTetrahedraStaysOnItsSideOfAJointInAnyOrderOfTheBodies) {
     return 300 + 10 * mesh.nodes[node].x() + (left ? 0 : 500);
   };
   const auto stored = two_cubes(2, 0);
-  std::filesystem::remove_all(folder());
-  std::filesystem::create_directories(folder());
-  Series series(folder(), "heat");
-  std::vector<double> values;
-  for (const NodeId node : stored.nodes.ids()) values.push_back(value(stored, node));
-  series.write(make_grid(stored), {0, {{"temperature", 1, values}}, {}});
+  store(stored, {0}, [&](NodeId node, double) { return value(stored, node); });
   for (const int n : {2, 3, 8}) {
     for (const int first : {0, 1}) {
       const auto mesh = two_cubes(n, first);
@@ -172,12 +173,7 @@ TEST(StoredField, OfABodyAroundAnotherIsItsOwn) {
     return node.index() < mesh.blocks[BlockId{0}].nodes.size() ? 300.0 : 400.0;
   };
   const auto stored = framed(2);
-  std::filesystem::remove_all(folder());
-  std::filesystem::create_directories(folder());
-  Series series(folder(), "heat");
-  std::vector<double> values;
-  for (const NodeId node : stored.nodes.ids()) values.push_back(value(stored, node));
-  series.write(make_grid(stored), {0, {{"temperature", 1, values}}, {}});
+  store(stored, {0}, [&](NodeId node, double) { return value(stored, node); });
   const auto mesh = framed(3);
   const NodalField field = read_stored({folder(), {}}, mesh);
   EXPECT_EQ(field.moved, 0u);
@@ -205,12 +201,7 @@ TEST(StoredField, OfWedgesIsThatOfTheOneAroundTheNode) {
   }
   stored.blocks.push_back({body, {0, stored.nodes.size()}, {first, stored.elements.size()}, {0, 2}});
   const auto value = [](const Point<3>& at) { return 400 + 2 * std::abs(at.x() - at.y()) + at.z(); };
-  std::filesystem::remove_all(folder());
-  std::filesystem::create_directories(folder());
-  Series series(folder(), "heat");
-  std::vector<double> values;
-  for (const NodeId node : stored.nodes.ids()) values.push_back(value(stored.nodes[node]));
-  series.write(make_grid(stored), {0, {{"temperature", 1, values}}, {}});
+  store(stored, {0}, [&](NodeId node, double) { return value(stored.nodes[node]); });
   for (const auto& [x, y] : {std::pair{0.7, 0.2}, {0.2, 0.7}, {0.9, 0.8}, {0.1, 0.4}}) {
     mesh::BlockMesh<3> one;
     one.bodies.push_back({"point", MaterialId{0}, false, {}});

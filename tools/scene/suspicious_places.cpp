@@ -85,14 +85,10 @@ Sentences overlapping_blocks(const mesh::BlockMesh<3>& mesh, packing::Pairs aske
 // missed.
 template <>
 Sentences overlapping_blocks(const mesh::BlockMesh<2>& mesh, packing::Pairs asked) {
-  const double least = rounding * mesh::mean_edge(mesh);
-  const std::vector<BlockId> blocks = packing::blocks_in_others(mesh, least, asked);
   const auto boxes = packing::block_boxes(mesh);
-  std::vector<Aabb<2>> near;
-  for (const BlockId block : blocks) near.push_back(boxes[block]);
   Sentences sentences;
-  packing::for_near_boxes<2>(near, -least, [&](std::size_t i, std::size_t j) {
-    const auto [a, b] = std::minmax(blocks[i], blocks[j]);
+  packing::for_near_boxes<2>(boxes.raw(), -rounding * mesh::mean_edge(mesh), [&](std::size_t i, std::size_t j) {
+    const BlockId a{std::min(i, j)}, b{std::max(i, j)};
     if (!sentences.empty() || !packing::is_asked(asked, packing::owner_of(mesh, a), packing::owner_of(mesh, b))) return;
     if (reaches_into(mesh, a, b) || reaches_into(mesh, b, a)) sentences.push_back(overlap_sentence(mesh, a, b, ""));
   });
