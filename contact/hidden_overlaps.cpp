@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
+#include "contact/overlap.h"
 #include "engine/base/check.h"
 #include "engine/base/chunks.h"
 #include "engine/base/collected.h"
@@ -12,8 +14,7 @@ namespace scree::contact {
 
 namespace {
 
-constexpr double least_gap = 1e-4;  // of the contact's length
-constexpr double on_face = 1e-9;    // likewise
+constexpr double on_face = 1e-9;  // of the contact's length
 
 // Is a point further than that from the box about these corners?
 template <int dim>
@@ -25,7 +26,7 @@ bool beside(const Corners<dim>& corners, const Point<dim>& point, double near) {
 
 template <int dim>
 bool may_be_hidden(const Contact<dim>& contact) {
-  return contact.kind == Kind::overlap && contact.gap > least_gap * contact.length;
+  return contact.kind == Kind::overlap && std::abs(contact.gap) > least_gap * contact.length;
 }
 
 template <int dim>

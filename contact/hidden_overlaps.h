@@ -11,8 +11,8 @@
 namespace scree::contact {
 
 // Takes those overlaps out whose point, seen from either of the two faces along its normal, lies behind a face of a third block
-// that touches the same face. The surface is that in which the contacts were found. Gaps of less than a ten-thousandth of the
-// contact's length hide nothing, and cost nothing.
+// that touches the same face: across a gap, or deeper within the other than it. The surface is that in which the contacts were
+// found. Gaps of less than a ten-thousandth of the contact's length, either way, hide nothing, and cost nothing.
 template <int dim>
 void drop_hidden_overlaps(const Surface<dim>& surface, Contacts<dim>& contacts);
 

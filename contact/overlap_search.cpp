@@ -119,7 +119,8 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   return contact;
 }
 
-// The points of the overlap of two faces.
+// The points of the overlap of two faces. Where each lies behind the other, one of the two points must be in the other's block:
+// else the faces only look past each other, as two that meet in an edge and lie in one plane but for the depth of the gap.
 template <int dim>
 class WholeFaces {
  public:
@@ -134,7 +135,13 @@ class WholeFaces {
             std::vector<OverlapPoint<dim>>& points) const {
     points.clear();
     const auto pair = opposed_faces<dim>(of_first, surface_.normals[first], of_second, surface_.normals[second]);
-    if (pair) overlap_points(*pair, tolerance_ * std::min(surface_.lengths[first], surface_.lengths[second]), points);
+    if (!pair) return;
+    const double length = std::min(surface_.lengths[first], surface_.lengths[second]);
+    overlap_points(*pair, tolerance_ * length, points);
+    std::erase_if(points, [&](const OverlapPoint<dim>& at) {
+      return at.gap < -least_gap * length && !inside_block<dim>(surface_, second, weighted_point<dim>(of_first, at.on_first)) &&
+             !inside_block<dim>(surface_, first, weighted_point<dim>(of_second, at.on_second));
+    });
   }
 
  private:

@@ -267,4 +267,15 @@ HeatBalance::Exchanged HeatBalance::exchanged(std::size_t exchange, const Eigen:
   return all;
 }
 
+double HeatBalance::lost_to(std::size_t exchange, const Eigen::VectorXd& change, const TangentPoint& at) const {
+  const Exchange& with = model_.exchanges[exchange];
+  double heat = 0;
+  Eigen::Index i = 0;
+  for (const NodeId node : with.on.nodes) {
+    const int row = node.value();
+    heat += exchange_slope(with.law, at.drive.exchanges[exchange], i++, at.temperature[row]) * change[row];
+  }
+  return heat;
+}
+
 }  // namespace scree::thermal

@@ -87,6 +87,8 @@ class HeatBalance {
   };
   [[nodiscard]] Exchanged exchanged(std::size_t exchange, const Eigen::VectorXd& temperature, const Drive& drive,
                                     const TangentPoint* tangent = nullptr) const;
+  // How much less comes in through one for a small change of temperature [W].
+  [[nodiscard]] double lost_to(std::size_t exchange, const Eigen::VectorXd& change, const TangentPoint& at) const;
 
  private:
   const HeatModel& model_;

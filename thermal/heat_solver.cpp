@@ -116,9 +116,8 @@ void HeatSolver::factorise(const Purpose& purpose) {
   if (!factor_->sound()) {
     throw RunError(fmt::format(
         "The heat equations of {} nodes could not be factorised for a step scale of {:g} s. Look for blocks of almost no "
-        "volume "
-        "(scree check names the mesh), or for too little memory; heat.solver: multigrid and the explicit integrator need no "
-        "factorisation",
+        "volume (scree check names the mesh), for joints that conduct a thousand billion times what their blocks do (perfect: "
+        "true ties such), or for too little memory; heat.solver: multigrid and the explicit integrator need no factorisation",
         free_.size(), purpose.scale));
   }
   const Eigen::VectorXd conductance = conductance_.diagonal();

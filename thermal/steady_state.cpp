@@ -3,6 +3,9 @@
 // Where heat is radiated it starts from above: F falls ever faster with T, so that from there the iteration comes down without
 // overshooting, by a quarter at least of what the radiation is too hot. From below the first step would overshoot by
 // (T_end/T_0)^3.
+//
+// Where joints are so stiff that a rounding of T carries much heat through them, no T balances. The ledger's flows are those at
+// T + T', T' being the change below rounding that does.
 #include "thermal/steady_state.h"
 
 #include <algorithm>
@@ -57,7 +60,7 @@ class SteadySolver {
     state.factorisations = solver_.factorisations();
     state.error = Eigen::VectorXd::Zero(state.temperature.size());
     state.reached.include(state.temperature);
-    state.ledger = flows(state.temperature);
+    state.ledger = flows(state.temperature, below_rounding(state.temperature, heating));
     if (model_.lumped) {
       LumpingEstimate estimate(model_);
       state.lumping = estimate.start();
@@ -135,16 +138,36 @@ class SteadySolver {
 
   [[nodiscard]] bool converged(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating, double moved,
                                double gained) const {
-    const double left = heating.lpNorm<1>();
-    if (left <= left_of_turnover * flows(temperature).turnover) return true;
+    if (balanced(temperature, heating)) return true;
     const bool settled = moved > 0 && moved <= rounding * temperature.lpNorm<Eigen::Infinity>();
     return settled && gained > 0.1;
   }
 
-  [[nodiscard]] Ledger flows(const Eigen::VectorXd& temperature) const {
+  [[nodiscard]] bool balanced(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating) const {
+    return heating.lpNorm<1>() <= left_of_turnover * flows(temperature).turnover;
+  }
+
+  // The change that balances what no temperature does; of no size if one does.
+  Eigen::VectorXd below_rounding(const Eigen::VectorXd& temperature, const Eigen::VectorXd& heating) {
+    constexpr int most_corrections = 5;
+    if (balanced(temperature, heating)) return {};
+    const Linearised at = balance_.linearised(temperature, drive_);
+    solver_.prepare_steady(at);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(temperature.size());
+    Eigen::VectorXd left = heating;
+    for (int correction = 0; correction < most_corrections && !balanced(temperature, left); ++correction) {
+      change += free_.scatter(solver_.solve(left));
+      left = heating - Eigen::VectorXd(free_.gather(balance_.lost(change, at)));
+    }
+    return change;
+  }
+
+  // At a temperature, or that and a change below its rounding.
+  [[nodiscard]] Ledger flows(const Eigen::VectorXd& temperature, const Eigen::VectorXd& change = {}) const {
     Ledger ledger;
     ledger.by_boundary.assign(model_.holds.size(), 0.0);
-    const Eigen::VectorXd heating = balance_.heating(temperature, drive_);
+    Eigen::VectorXd heating = balance_.heating(temperature, drive_);
+    if (change.size() > 0) heating -= balance_.lost(change, balance_.linearised(temperature, drive_));
     for (std::size_t i = 0; i < model_.fixed_nodes.size(); ++i) {
       const double heat = heating[model_.fixed_nodes[i].value()];
       ledger.by_boundary[model_.fixed_hold[i]] -= heat;
@@ -153,7 +176,8 @@ class SteadySolver {
     ledger.by_applied = drive_.by_load;
     for (std::size_t e = 0; e < model_.exchanges.size(); ++e) {
       const auto [heat, size] = balance_.exchanged(e, temperature, drive_);
-      ledger.by_surroundings.push_back(heat);
+      const double lost = change.size() > 0 ? balance_.lost_to(e, change, {temperature, drive_}) : 0;
+      ledger.by_surroundings.push_back(heat - lost);
       ledger.turnover += size;
     }
     ledger.turnover += drive_.load_sizes.sum();

@@ -243,12 +243,25 @@ void declare(CLI::App& app, Arguments& arguments) {
   declare_reference(app, arguments);
 }
 
+// A word in the place of a command that is none: the library says only that one is required.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  const bool word = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+  if (!word) return std::nullopt;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format("scree: {} is no command. {}\n", argv[1], scree::suggest(argv[1], names));
+}
+
 // The exit status, if nothing is left to be done: --help or --version, or something is wrong with the command.
 std::optional<int> end_of_parsing(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
+    if (const auto unknown = unknown_command(app, argc, argv)) {
+      fmt::print(stderr, "{}", *unknown);
+      return 2;
+    }
     return app.exit(error) == 0 ? 0 : 2;
   }
 }

@@ -314,5 +314,37 @@ TEST(Overlap, OfAFloorWithAThinPlateInPiecesIsThePlatesArea) {
   EXPECT_NEAR(floor, 1, 1e-3);
 }
 
+// The same plate pressed into the floor: at the tip of the lower piece, which is thinner than that is deep, the slanted face of
+// the other is in the floor as well.
+TEST(Overlap, OfAFloorWithAThinPlateInPiecesThatIsPressedIntoItIsThePlatesArea) {
+  for (const double depth : {0.001, 0.004}) {
+    const std::vector<Simplex<2>> left{{Point<2>(0, -depth), Point<2>(1, -depth), Point<2>(0, 0.05 - depth)}};
+    const std::vector<Simplex<2>> right{{Point<2>(1, -depth), Point<2>(1, 0.05 - depth), Point<2>(0, 0.05 - depth)}};
+    const auto mesh = mesh_of<2>({left, right, box<2>(Point<2>(0, -1), Point<2>(1, 1))});
+    double floor = 0;
+    for (const auto& contact : find_contacts<2>(mesh, by_overlap).contacts) {
+      floor += contact.target == BlockId{2} || contact.owner == BlockId{2} ? contact.area : 0;
+    }
+    EXPECT_NEAR(floor, 1, 2e-3) << depth;
+  }
+}
+
+// Four triangles that meet in a joint along x = 0, the upper right one lower by a little than the lower left one is high: their
+// slanted faces are opposed, seen along their normals over each other, and neither is in the other's block.
+TEST(Overlap, OfSlantedFacesOnBothSidesOfAJointIsNone) {
+  const double off = 0.005;
+  const std::vector<Simplex<2>> lower_left{{Point<2>(-1, 0), Point<2>(0, 0), Point<2>(0, 0.5)}};
+  const std::vector<Simplex<2>> upper_left{{Point<2>(-1, 0), Point<2>(0, 0.5), Point<2>(0, 1)}};
+  const std::vector<Simplex<2>> lower_right{{Point<2>(0, 0), Point<2>(1, 1), Point<2>(0, 0.5 - off)}};
+  const std::vector<Simplex<2>> upper_right{{Point<2>(0, 0.5 - off), Point<2>(1, 1), Point<2>(0, 1)}};
+  const auto mesh = mesh_of<2>({lower_left, upper_left, lower_right, upper_right});
+  double joint = 0;
+  for (const auto& contact : find_contacts<2>(mesh, by_overlap).contacts) {
+    const bool across = (contact.owner.index() < 2) != (contact.target.index() < 2);
+    joint += across ? contact.area : 0;
+  }
+  EXPECT_NEAR(joint, 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace scree::contact

@@ -7,6 +7,7 @@
 #include "tests/thermal/builders.h"
 #include "thermal/heat_run.h"
 #include "thermal/joint_conduction.h"
+#include "thermal/steady_state.h"
 
 namespace scree::thermal {
 namespace {
@@ -62,6 +63,32 @@ TEST_P(StiffJoints, CarryTheFlowOfResistancesInSeries) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Range, StiffJoints, testing::Values(1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9));
+
+// Rounding a temperature on one side of these joints changes what passes them by up to all that flows, yet the ledger closes.
+// Convection at the far end so strong that the end has the temperature of its surroundings.
+TEST(StiffJointsInASteadyState, CloseTheLedgerWithTheFlowOfResistancesInSeries) {
+  auto left = test::bar<2>(0.5, 8, 4, 0.1);
+  auto right = test::bar<2>(0.5, 7, 3, 0.1);
+  right.low[0] = 0.5;
+  const auto mesh = test::slab_mesh<2>({left, right});
+  for (const double conductance : {1e7, 1e9, 1e10, 1e11, 1e12, 1e13}) {
+    HeatOptions options = test::options_for(mesh, 300);
+    options.joint.law = JointConductance{conductance};
+    options.joint.model = contact::Model::overlap;
+    const auto contacts = contact::find_contacts(mesh, contact_search(options.joint, mesh.bodies, {}));
+    options.boundaries.push_back(test::hold(BodyId{0}, 0, 400, "left"));
+    Boundary blown;
+    blown.region = Region(BodyId{1}, test::between_x(1, 1));
+    blown.condition = Convection{conductance, 300.0};
+    blown.name = "right";
+    options.boundaries.push_back(blown);
+    const HeatState state = steady_state(make_heat_model(mesh, test::rock_only(), contacts, options));
+    EXPECT_LT(state.ledger.relative_residual(), 1e-12) << conductance;
+    const double expected = 100 * 0.1 / (1.0 / 4 + 2 / conductance);
+    EXPECT_NEAR(state.ledger.by_boundary.at(0) / expected, 1, 1e-9) << conductance;
+    EXPECT_NEAR(state.ledger.by_surroundings.at(0) / expected, -1, 1e-9) << conductance;
+  }
+}
 
 class Conductances : public testing::TestWithParam<double> {};
 

@@ -143,9 +143,14 @@ TEST(SceneErrors, MaterialsNeedWhatIsModelled) {
   EXPECT_EQ(wrong_with(bare + "settle: {}\n"), "s.yaml:1:18: materials.ore.density is missing (body b is free to fall)");
   EXPECT_EQ(wrong_with(bare + "settle: {}\n", {"bodies.b.fixed=true"}), "accepted");
   EXPECT_EQ(wrong_with(bare + "heat: {initial: 300, until: 1}\noutput: {every: 1}\n"),
-            "s.yaml:1:18: materials.ore.density is missing (heat is modelled in body b)\n"
             "s.yaml:1:18: materials.ore.conductivity is missing (heat is modelled in body b)\n"
+            "s.yaml:1:18: materials.ore.density is missing (heat is modelled in body b)\n"
             "s.yaml:1:18: materials.ore.specific_heat is missing (heat is modelled in body b)");
+  const std::string steady = bare + "heat: {initial: 300, steady: true}\n";
+  EXPECT_EQ(wrong_with(steady), "s.yaml:1:18: materials.ore.conductivity is missing (heat is modelled in body b)");
+  EXPECT_EQ(wrong_with(steady, {"materials.ore.conductivity=3"}), "accepted");
+  EXPECT_EQ(wrong_with(steady + "settle: {}\n", {"materials.ore.conductivity=3"}),
+            "s.yaml:1:18: materials.ore.density is missing (body b is free to fall)");
 }
 
 TEST(SceneErrors, AMaterialThatOnlyAnOverrideNamesIsAMisspeltOneUnlessABodyTakesIt) {

@@ -69,6 +69,9 @@ TEST(Command, RefusesNamesThatMeanNothingInWordsThatSayWhat) {
   const auto empty = fresh_directory("not_a_run");
   expect_refused("resume " + empty.string(), 2, "(must be that of a run, which holds its scene.yaml)");
   expect_refused("accuracy " + scene("slab") + " --out /proc/nowhere", 1, "/proc/nowhere: cannot be created");
+  expect_refused("run " + scene("slab") + " --out " + scene("bar"), 2, "bar.yaml (must be a folder");
+  expect_refused("run " + scene("slab") + " --out " + scene("bar") + "/deeper", 2, "bar.yaml/deeper (must be a folder");
+  expect_refused("chekc " + scene("slab"), 2, "chekc is no command. Did you mean check?");
 }
 
 // As a variable of a shell that is not set: it must not be taken for an option that was left away.

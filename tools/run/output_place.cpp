@@ -28,7 +28,11 @@ void check_output_place(const std::string& option, const std::filesystem::path& 
 void make_output_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", folder.string(), error.message()));
+  if (!error) return;
+  if (error == std::errc::not_a_directory) {
+    throw InputError(Problem{{}, "--out", folder.string(), "must be a folder; a file has its name, or one above it", ""});
+  }
+  throw RunError(fmt::format("{}: cannot be created ({}). Choose another --out", folder.string(), error.message()));
 }
 
 }  // namespace scree::run

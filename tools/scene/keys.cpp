@@ -61,7 +61,8 @@ Keys material_keys() {
   Keys keys{
       row("materials", names, "What bodies are made of.").range(at_least_one).required(),
       row("materials.*", section, "One material."),
-      row("materials.*.density", quantity, "Mass per volume.", q::density, positive).otherwise("needed to settle and for heat"),
+      row("materials.*.density", quantity, "Mass per volume.", q::density, positive)
+          .otherwise("needed to settle and for heat in time"),
       row("materials.*.conductivity", quantity, "Thermal conductivity: one number, one for each axis, or a map.",
           q::conductivity, positive)
           .count(Count::one_or_per_dimension)
@@ -80,7 +81,7 @@ Keys material_keys() {
          {
              row("materials.*.specific_heat", quantity, "Heat capacity per mass.", q::specific_heat, positive)
                  .depends(Depends::on_temperature)
-                 .otherwise("needed for heat"),
+                 .otherwise("needed for heat in time"),
              row("materials.*.friction", quantity, "Coulomb coefficient between two bodies of this material.", q::number,
                  not_negative)
                  .fallback(fmt::format("{}", by_default.friction)),

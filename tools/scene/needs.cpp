@@ -117,7 +117,9 @@ void check_needs(const Scene& scene, const Checked& checked, Problems& problems)
     if (falls) need(material, "density", fmt::format("body {} is free to fall", body.name), problems);
     if (!scene.heat) continue;
     const std::string reason = fmt::format("heat is modelled in body {}", body.name);
-    for (const char* property : {"density", "conductivity", "specific_heat"}) need(material, property, reason, problems);
+    need(material, "conductivity", reason, problems);
+    if (scene.heat->time.steady) continue;
+    for (const char* property : {"density", "specific_heat"}) need(material, property, reason, problems);
   }
   check_new_materials(scene, checked.at("materials"), problems);
   if (!scene.heat) return;

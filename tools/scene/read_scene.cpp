@@ -83,6 +83,14 @@ void check_packing(const Checked& packing, Problems& problems) {
   }
 }
 
+// What is stored has no part in a steady state, so a scene need not name it; the equations are written with it.
+void store_something(Table<MaterialId, Material>& materials) {
+  for (Material& material : materials) {
+    if (!material.density) material.density = 1;
+    if (!material.specific_heat) material.specific_heat = 1;
+  }
+}
+
 Scene read(InputValue root, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Problems problems;
   apply_overrides(overrides, root, problems);
@@ -117,6 +125,7 @@ Scene read(InputValue root, const std::filesystem::path& file, const std::vector
   }
   check_needs(scene, checked, problems);
   if (!problems.empty()) refuse(std::move(problems));
+  if (scene.heat && scene.heat->time.steady) store_something(scene.materials);
   collect_tables(checked, scene.tables);
   collect_places(checked, scene.places);
   scene.bare_values = bare_values(checked);
