@@ -181,13 +181,13 @@ class Chooser {
     if (entries.empty()) return block;
     const mesh::Block& of = mesh_.blocks[b];
     const Conductivity& conductivity = *materials_[block.material].conductivity;
-    const InnerResistance<dim> inside(mesh_, of,
+    const InnerResistance<dim> inside(mesh_, b,
                                       conductivities_[block.material].least * conductivity_ratios<dim>(conductivity, of));
     double constricted = 0;
     for (auto first = entries.begin(); first != entries.end();) {
       const auto last = std::find_if(first, entries.end(), [&](const Entry& e) { return e.patch != first->patch; });
       PatchResistance largest;
-      for (const Patch& patch : patches_of({first, last}, inside.centroid())) {
+      for (const Patch& patch : patches_of({first, last}, inside)) {
         const double constriction = constriction_of(patch, inside);
         const double bulk = inside.bulk(patch.moments);
         largest = largest_of(largest, {bulk, constriction});
@@ -225,22 +225,22 @@ class Chooser {
   }
 
   // One, or of a load that heats one part and cools another those two.
-  [[nodiscard]] std::vector<Patch> patches_of(const Entries& entries, const Point<dim>& centroid) const {
+  [[nodiscard]] std::vector<Patch> patches_of(const Entries& entries, const InnerResistance<dim>& inside) const {
     const std::size_t patch = entries.begin()->patch;
-    if (patch < mesh_.blocks.size()) return {contact_patch(entries, centroid)};
+    if (patch < mesh_.blocks.size()) return {contact_patch(entries, inside)};
     const std::size_t exchange = patch - mesh_.blocks.size();
-    if (exchange < model_.exchanges.size()) return {exchange_patch(exchange, entries, centroid)};
-    return load_patches(exchange - model_.exchanges.size(), entries, centroid);
+    if (exchange < model_.exchanges.size()) return {exchange_patch(exchange, entries, inside)};
+    return load_patches(exchange - model_.exchanges.size(), entries, inside);
   }
 
   // Two faces that lie on each other are found from both sides; where only edges meet, theirs is the area.
-  [[nodiscard]] Patch contact_patch(const Entries& entries, const Point<dim>& centroid) const {
+  [[nodiscard]] Patch contact_patch(const Entries& entries, const InnerResistance<dim>& inside) const {
     Patch patch;
     double edges = 0;
     for (const Entry& entry : entries) {
       const contact::Contact<dim>& contact = contacts_[entry.item];
       const contact::Stencil<dim>& stencil = entry.owner ? contact.on_owner : contact.on_target;
-      patch.moments.add(point_of(mesh_, stencil) - centroid, joints_.conductances[entry.item]);
+      inside.add(stencil, joints_.conductances[entry.item], patch.moments);
       patch.conductance += joints_.conductances[entry.item];
       if (contact.kind == contact::Kind::overlap) patch.area += contact.area;
       if (contact.kind == contact::Kind::point_face) patch.area += 0.5 * contact.area;
@@ -251,7 +251,7 @@ class Chooser {
   }
 
   // Radiation is as good as convection of its slope at the hotter of the two.
-  [[nodiscard]] Patch exchange_patch(std::size_t e, const Entries& entries, const Point<dim>& centroid) const {
+  [[nodiscard]] Patch exchange_patch(std::size_t e, const Entries& entries, const InnerResistance<dim>& inside) const {
     const Exchange& exchange = model_.exchanges[e];
     const ExchangeRates& rates = start_.exchanges[e];
     Patch patch;
@@ -262,8 +262,8 @@ class Chooser {
       const NodeId node = exchange.on.nodes[entry.item];
       const double hotter = std::max(model_.initial[node.value()], rates.surroundings[entry.item]);
       const double conductance = exchange_slope(exchange.law, rates, entry.item, hotter);
-      patch.moments.add(mesh_.nodes[node] - centroid, conductance);
-      by_area.add(mesh_.nodes[node] - centroid, exchange.on.shares[entry.item]);
+      inside.add(node, conductance, patch.moments);
+      inside.add(node, exchange.on.shares[entry.item], by_area);
       patch.conductance += conductance;
       area += exchange.on.shares[entry.item];
       extent.add(conductance, exchange.on.shares[entry.item]);
@@ -275,20 +275,21 @@ class Chooser {
 
   // Of no conductance: they enter the error, not the Biot number. Where a load is strong is seen at the start; one that is zero
   // then counts as alike everywhere.
-  [[nodiscard]] std::vector<Patch> load_patches(std::size_t l, const Entries& entries, const Point<dim>& centroid) const {
+  [[nodiscard]] std::vector<Patch> load_patches(std::size_t l, const Entries& entries,
+                                                const InnerResistance<dim>& inside) const {
     const Load& load = model_.loads[l];
     std::vector<double> densities;
     for (const Entry& entry : entries) densities.push_back(load.density(load.on.places.col(entry.item), 0));
     const auto [lowest, highest] = std::minmax_element(densities.begin(), densities.end());
     if (*lowest == 0 && *highest == 0) std::fill(densities.begin(), densities.end(), 1);
     std::vector<Patch> patches;
-    if (*highest > 0) patches.push_back(load_patch(load, entries, centroid, densities, 1));
-    if (*lowest < 0) patches.push_back(load_patch(load, entries, centroid, densities, -1));
+    if (*highest > 0) patches.push_back(load_patch(load, entries, inside, densities, 1));
+    if (*lowest < 0) patches.push_back(load_patch(load, entries, inside, densities, -1));
     return patches;
   }
 
   // Of the part that it heats, or of the one that it cools.
-  [[nodiscard]] Patch load_patch(const Load& load, const Entries& entries, const Point<dim>& centroid,
+  [[nodiscard]] Patch load_patch(const Load& load, const Entries& entries, const InnerResistance<dim>& inside,
                                  const std::vector<double>& densities, double sign) const {
     Patch patch;
     patch.load = true;
@@ -296,7 +297,7 @@ class Chooser {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const auto item = entries[i].item;
       const double share = load.on.shares[item], heat = share * std::max(0.0, sign * densities[i]);
-      patch.moments.add(mesh_.nodes[load.on.nodes[item]] - centroid, heat);
+      inside.add(load.on.nodes[item], heat, patch.moments);
       extent.add(heat, share * load.of_share);
     }
     (load.in_volume ? patch.volume : patch.area) = extent.size();

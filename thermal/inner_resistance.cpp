@@ -7,8 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "thermal/detour.h"
-
 namespace scree::thermal {
 
 namespace {
@@ -23,35 +21,21 @@ Tensor<dim> lyapunov(const Eigen::SelfAdjointEigenSolver<Tensor<dim>>& a, const 
   return a.eigenvectors() * x * a.eigenvectors().transpose();
 }
 
-// How much of the box with its second moments a convex body fills at least: as much as a triangle or a tetrahedron does.
-template <int dim>
-constexpr double least_filled = dim == 2 ? 0.86 : 0.71;
-
-// How many times as much a block resists as one that is not bent: by the square of the way, which is longer, and thinner.
-template <int dim>
-double bent(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block, const Tensor<dim>& moments, double volume) {
-  const double box = std::sqrt((12 / volume * moments).determinant());
-  if (volume >= least_filled<dim> * box) return 1;
-  const double longer = std::max(1.0, detour(mesh, block));
-  return longer * longer;
-}
-
 }  // namespace
 
 template <int dim>
-InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, const mesh::Block& block,
-                                      const Tensor<dim>& conductivity)
+InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, BlockId block, const Tensor<dim>& conductivity)
     : mesh_(mesh),
-      block_(block),
+      block_(mesh.blocks[block]),
       conductivity_(conductivity),
       lowest_conductivity_(Eigen::SelfAdjointEigenSolver<Tensor<dim>>(conductivity, Eigen::EigenvaluesOnly).eigenvalues()[0]) {
-  for (const ElementId e : block.elements) {
+  for (const ElementId e : block_.elements) {
     const double volume = mesh::element_volume(mesh, e);
     for (const NodeId node : mesh.elements[e]) centroid_ += volume / (dim + 1) * mesh.nodes[node];
     volume_ += volume;
   }
   centroid_ /= volume_;
-  for (const ElementId e : block.elements) {
+  for (const ElementId e : block_.elements) {
     const double share = mesh::element_volume(mesh, e) / ((dim + 1) * (dim + 2));
     Point<dim> sum = Point<dim>::Zero();
     for (const NodeId node : mesh.elements[e]) {
@@ -61,15 +45,35 @@ InnerResistance<dim>::InnerResistance(const mesh::BlockMesh<dim>& mesh, const me
     }
     moments_ += share * sum * sum.transpose();
   }
-  bent_ = bent(mesh_, block_, moments_, volume_);
+  if (is_dented(mesh_, block)) field_.emplace(mesh_, block_, conductivity_);
   const Tensor<dim> root = conductivity_.llt().matrixL();
   inverse_root_ = root.inverse();
   scaled_moments_.compute(inverse_root_ * moments_ * inverse_root_.transpose());
 }
 
 template <int dim>
+void InnerResistance<dim>::add_at_node(NodeId node, double weight, PatchMoments<dim>& patch) const {
+  if (!field_) return;
+  if (patch.at_nodes.size() == 0) patch.at_nodes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(block_.nodes.size()));
+  patch.at_nodes[static_cast<Eigen::Index>(node.index() - block_.nodes.first())] += weight;
+}
+
+template <int dim>
+void InnerResistance<dim>::add(NodeId node, double weight, PatchMoments<dim>& patch) const {
+  patch.add(mesh_.nodes[node] - centroid_, weight);
+  add_at_node(node, weight, patch);
+}
+
+template <int dim>
+void InnerResistance<dim>::add(const contact::Stencil<dim>& point, double weight, PatchMoments<dim>& patch) const {
+  patch.add(point_of(mesh_, point) - centroid_, weight);
+  contact::for_each_weight(point, [&](NodeId node, double share) { add_at_node(node, share * weight, patch); });
+}
+
+template <int dim>
 double InnerResistance<dim>::bulk(const PatchMoments<dim>& patch) const {
   if (patch.weight == 0) return 0;
+  if (field_) return field_->largest(patch.at_nodes / patch.weight);
   const Point<dim> slope = conductivity_.llt().solve(patch.first / patch.weight) / volume_;
   const Tensor<dim> right = 0.5 * (patch.second / patch.weight - moments_ / volume_);
   const Tensor<dim> scaled = lyapunov<dim>(scaled_moments_, inverse_root_ * right * inverse_root_.transpose());
@@ -80,7 +84,7 @@ double InnerResistance<dim>::bulk(const PatchMoments<dim>& patch) const {
     const Point<dim> x = mesh_.nodes[node] - centroid_;
     largest = std::max(largest, std::abs(slope.dot(x) + x.dot(bend * x) - mean));
   }
-  return bent_ * largest;
+  return largest;
 }
 
 template <int dim>

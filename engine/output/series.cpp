@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double rounding = 1e-9;  // of a time
+
 // Removes all frames of a series but those in `kept`, and what an interrupted write left behind.
 void remove_frames(const fs::path& folder, const std::string& name, const std::set<fs::path>& kept) {
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -52,14 +54,14 @@ Series::Series(fs::path directory, std::string name, std::optional<double> keep_
     remove_unfinished(index_);
     std::set<fs::path> kept;
     if (keep_until) {
+      const double latest = *keep_until * (1 + rounding);
       for (SeriesEntry& entry : earlier_entries(index_)) {
-        if (entry.time > *keep_until) continue;
+        if (entry.time > latest) continue;
         kept.insert(directory_ / entry.file);
         entries_.push_back(std::move(entry));
       }
-      if (entries_.empty() || entries_.back().time != *keep_until) {
-        throw not_as_left("series", index_,
-                          fmt::format("must have a frame at {} s, from where the run would go on", *keep_until));
+      if (entries_.empty() || entries_.back().time < *keep_until * (1 - rounding)) {
+        throw not_as_left("series", index_, fmt::format("must have a frame at {} s, to go on with the next one", *keep_until));
       }
     }
     // The index goes first, so that it never names a file that is gone.

@@ -77,9 +77,8 @@ class Lookup {
         return found;
       }
       found.distance = std::sqrt(squared);
-      std::array<double, 3> closest{};
       grid_.GetCell(id, cell_);
-      cell_->EvaluatePosition(nearest.data(), closest.data(), part, parametric.data(), squared, weights.data());
+      if (!evaluate(nearest, parametric, weights)) found.distance = std::numeric_limits<double>::infinity();
     } else {
       grid_.GetCell(id, cell_);
     }
@@ -103,12 +102,9 @@ class Lookup {
     double least = almost_in;
     std::vector<double> of_cell(weights.size());
     for (vtkIdType i = 0; i < near_->GetNumberOfIds(); ++i) {
-      std::array<double, 3> closest{}, parametric{};
-      double squared = 0;
-      int part = 0;
+      std::array<double, 3> parametric{};
       grid_.GetCell(near_->GetId(i), cell_);
-      cell_->EvaluatePosition(const_cast<double*>(point.data()), closest.data(), part, parametric.data(), squared,
-                              of_cell.data());
+      if (!evaluate(point, parametric, of_cell)) continue;
       const double out = outside(*cell_, parametric);
       if (out > least || (best >= 0 && out == least)) continue;
       least = out;
@@ -116,6 +112,16 @@ class Lookup {
       weights = of_cell;
     }
     return best;
+  }
+
+  // Where in the cell that is looked at a point is; false if that is not found, as of points far from a quadrilateral or a
+  // hexahedron that is no parallelepiped: what VTK gives then is where its iteration stopped.
+  bool evaluate(const Eigen::Vector3d& point, std::array<double, 3>& parametric, std::vector<double>& weights) {
+    std::array<double, 3> closest{};
+    double squared = 0;
+    int part = 0;
+    return cell_->EvaluatePosition(const_cast<double*>(point.data()), closest.data(), part, parametric.data(), squared,
+                                   weights.data()) >= 0;
   }
 
   vtkUnstructuredGrid& grid_;

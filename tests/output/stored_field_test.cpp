@@ -1,9 +1,11 @@
 #include "engine/output/stored_field.h"
 
+#include <cmath>
 #include <map>
 
 #include <gmock/gmock.h>
 
+#include "engine/mesh/make_blocks.h"
 #include "engine/output/series.h"
 #include "tests/temp_folder.h"
 
@@ -212,6 +214,36 @@ TEST(StoredField, OfWedgesIsThatOfTheOneAroundTheNode) {
     one.elements.push_back({NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}});
     one.blocks.push_back({BodyId{0}, {0, 4}, {0, 1}});
     EXPECT_NEAR(read_stored({folder(), {}}, one).values[0], value(at), 1e-5) << x << ' ' << y;
+  }
+}
+
+// A disc of quadrilaterals of all shapes. Some of those that may hold a point are looked at from so far outside them that their
+// own coordinates of it are not found.
+TEST(StoredField, OfADiscOfQuadrilateralsIsLinearWhereTheyAreLinear) {
+  mesh::BodySpec disc;
+  disc.name = "disc";
+  disc.shape = mesh::Sphere{2};
+  disc.mesh_size = 0.3;
+  disc.cells = mesh::CellKind::quadrilateral;
+  const auto stored = mesh::make_blocks<2>({disc});
+  const auto value = [](const Point<2>& at) { return 350 + 10 * at.x() + 5 * at.y(); };
+  store(stored, {0}, [&](NodeId at, double) { return value(stored.nodes[at]); });
+  mesh::BlockMesh<2> points;
+  points.bodies.push_back({"points", MaterialId{0}, false, {}});
+  constexpr int count = 3000;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.399963 * i, radius = 0.9 * std::sqrt((i + 0.5) / count);  // a sunflower's
+    const Point<2> at(radius * std::cos(angle), radius * std::sin(angle));
+    const std::size_t first = points.nodes.size();
+    for (const Point<2>& corner : {at, Point<2>(at + Point<2>(1e-7, 0)), Point<2>(at + Point<2>(0, 1e-7))}) {
+      points.nodes.push_back(corner);
+    }
+    points.elements.push_back({NodeId{first}, NodeId{first + 1}, NodeId{first + 2}});
+    points.blocks.push_back({BodyId{0}, {first, first + 3}, {points.elements.size() - 1, points.elements.size()}});
+  }
+  const NodalField field = read_stored({folder(), {}}, points);
+  for (const NodeId at : points.nodes.ids()) {
+    EXPECT_NEAR(field.values[static_cast<Eigen::Index>(at.index())], value(points.nodes[at]), 1e-5);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -115,6 +116,49 @@ TEST(InterruptedRun, IsNotGoneOnFromByAnotherVersionWhichLeavesItAsItIs) {
   EXPECT_EQ(wait_for(start({"resume", directory.string()})), 2);
   EXPECT_EQ(contents(directory / "summary.json"), summary.dump());
   EXPECT_EQ(contents(directory / "probes.csv"), probes);
+}
+
+// Frames are of t = 0 and of the end only; rows of probes tell how far the run is. It goes on from where it was stopped.
+TEST(InterruptedRun, KeepsItsStateBetweenFrames) {
+  const auto whole = fresh_directory("two_frames"), directory = fresh_directory("two_frames_interrupted");
+  const auto arguments = [](const std::filesystem::path& out) {
+    Arguments words = heat_in(out);
+    for (const char* override : {"heat.until=60 min", "output.every=1 s", "output.frames_every=60 min",
+                                 "heat.integrator=explicit_euler", "heat.step=50 ms"}) {
+      words.insert(words.end(), {"--set", override});
+    }
+    return words;
+  };
+  ASSERT_EQ(wait_for(start(arguments(whole))), 0);
+  const pid_t child = start(arguments(directory));
+  for (int i = 0; i < 2000 && contents(directory / "probes.csv").size() < 30000; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130);
+  EXPECT_EQ(listed_frames(directory / "heat.pvd").size(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(directory / "heat.restart.h5"));
+  EXPECT_EQ(wait_for(start({"resume", directory.string()})), 0);
+  EXPECT_EQ(contents(directory / "probes.csv"), contents(whole / "probes.csv"));
+  EXPECT_EQ(contents(directory / "heat.pvd"), contents(whole / "heat.pvd"));
+}
+
+// As there is no folder for Gmsh to read the mesh from.
+TEST(ARunThatFailsBeforeItHasBegun, LeavesAnEarlierResultAsItIs) {
+  const auto directory = fresh_directory("failed_before_it_began");
+  const auto scene = std::filesystem::path(SCREE_SOURCE_DIR) / "scenes" / "ring.yaml";
+  const Arguments again{"run", scene.string(), "--out", directory.string()};
+  ASSERT_EQ(wait_for(start(again)), 0);
+  const std::string summary = contents(directory / "summary.json"), index = contents(directory / "heat.pvd");
+  const char* before = std::getenv("TMPDIR");
+  const std::string folder = before != nullptr ? before : "/tmp";
+  setenv("TMPDIR", "/nowhere", 1);
+  EXPECT_EQ(wait_for(start(again)), 1);
+  setenv("TMPDIR", folder.c_str(), 1);
+  EXPECT_EQ(contents(directory / "summary.json"), summary);
+  EXPECT_EQ(contents(directory / "heat.pvd"), index);
+  EXPECT_TRUE(std::filesystem::exists(directory / listed_frames(directory / "heat.pvd").back()));
 }
 
 // Whatever ends the run before its first frames have their names.

@@ -1,6 +1,5 @@
 #include "tools/run/heat_recorder.h"
 
-#include <cmath>
 #include <utility>
 
 #include "engine/base/threads.h"
@@ -24,6 +23,9 @@ output::ProbeTable open_table(const RunFiles& files, const HeatedPile<dim>& pile
 // the restart file takes as long as a frame of temperatures.
 constexpr std::chrono::seconds longest_unsaved{1};
 
+// And one that is told to stop: to copy a state takes little of that.
+constexpr std::chrono::milliseconds longest_unkept{100};
+
 // Files that wait for others to be flushed with them. Flushing them all takes as long as flushing one.
 constexpr std::chrono::milliseconds longest_unflushed{50};
 
@@ -37,14 +39,6 @@ std::vector<output::Probe<dim>> probes_of_rows(std::vector<output::Probe<dim>> p
     for (NodeId& node : probe.reading.nodes) node = rows[node];
   }
   return probes;
-}
-
-// At the multiples of the frames' interval, and at the end.
-bool frame_due(const Scene& scene, double time) {
-  const double every = scene.frames_every;
-  if (every == 0 || time >= scene.heat->time.until) return true;
-  const double turns = std::round(time / every);
-  return std::abs(time / every - turns) < 1e-9 && (turns > 0 || time == 0);
 }
 
 // Calls both, at the same time if there are threads for it.
@@ -69,16 +63,22 @@ HeatRecorder<dim>::HeatRecorder(const Scene& scene, const RunFiles& files, const
       probes_(probes_of_rows(pile.probes, model.rows)),
       restart_(files.restart()),
       several_threads_(threads_in_use() > 1),
-      series_(files.directory, heat_series, resumed_from) {
+      frame_times_(scene),
+      series_(files.directory, heat_series, last_frame(resumed_from)) {
   const auto& numbers = pile.places.blocks;
   const auto share_blocks = [&] { series_.share(output::make_grid(pile.mesh), identity_arrays(pile.mesh, numbers)); };
   const auto share_contacts = [&] {
     if (pile.contacts.contacts.empty()) return;
-    contact_series_.emplace(files.directory, contact_series, resumed_from);
+    contact_series_.emplace(files.directory, contact_series, last_frame(resumed_from));
     contact_series_->share(contact_grid(pile.mesh, pile.contacts), contact_arrays(pile.contacts, numbers));
   };
   call_both(several_threads_, share_blocks, share_contacts);
   if (!pile.probes.empty()) table_.emplace(open_table(files, pile, resumed_from));
+}
+
+template <int dim>
+std::optional<double> HeatRecorder<dim>::last_frame(std::optional<double> resumed_from) const {
+  return resumed_from ? std::optional(frame_times_.last(*resumed_from)) : std::nullopt;
 }
 
 // What stops the run is told by whoever stops it, and an older restart file stays what it is.
@@ -95,9 +95,12 @@ HeatRecorder<dim>::~HeatRecorder() {
 template <int dim>
 void HeatRecorder<dim>::record(const thermal::HeatState& state) {
   add_row(state.time, state.temperature);
-  if (frame_due(scene_, state.time)) {
-    waiting_.push_back([this, kept = std::make_shared<const thermal::HeatState>(state)](bool beside) {
-      write_frame(kept->time, kept->temperature, beside);
+  const bool frame = frame_times_.due(state.time);
+  const auto now = std::chrono::steady_clock::now();
+  if (frame || now - kept_ >= longest_unkept) {
+    kept_ = now;
+    waiting_.push_back([this, frame, kept = std::make_shared<const thermal::HeatState>(state)](bool beside) {
+      if (frame) write_frame(kept->time, kept->temperature, beside);
       keep(kept);
     });
   }
@@ -107,7 +110,7 @@ void HeatRecorder<dim>::record(const thermal::HeatState& state) {
 template <int dim>
 void HeatRecorder<dim>::record_passed(double time, const Eigen::VectorXd& temperature) {
   add_row(time, temperature);
-  if (!frame_due(scene_, time)) return;
+  if (!frame_times_.due(time)) return;
   waiting_.push_back([this, time, temperature](bool beside) { write_frame(time, temperature, beside); });
   if (static_cast<double>(waiting_.size() * temperature.size() * sizeof(double)) > most_bytes_waiting) write_beside();
 }

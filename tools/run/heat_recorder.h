@@ -13,6 +13,7 @@
 #include "engine/base/files_together.h"
 #include "engine/output/series.h"
 #include "thermal/heat_run.h"
+#include "tools/run/frame_times.h"
 #include "tools/run/heated_pile.h"
 #include "tools/run/run_files.h"
 #include "tools/scene/scene.h"
@@ -25,7 +26,7 @@ class HeatRecorder {
   // Starts the files, or goes on with those of a run that reached `resumed_from`.
   HeatRecorder(const Scene& scene, const RunFiles& files, const HeatedPile<dim>& pile, const thermal::HeatModel& model,
                std::optional<double> resumed_from);
-  // Names the last frames and writes the restart file, if these are older than the frames: the run was stopped.
+  // Names the last frames and writes the restart file, if that is older than the last state kept: the run was stopped.
   ~HeatRecorder();
   HeatRecorder(const HeatRecorder&) = delete;
   HeatRecorder& operator=(const HeatRecorder&) = delete;
@@ -61,6 +62,7 @@ class HeatRecorder {
   // be some time behind the frames and the rows of the probes: a run that is killed computes that again.
   void save(const thermal::HeatState& state);
   void name_frames();
+  [[nodiscard]] std::optional<double> last_frame(std::optional<double> resumed_from) const;
   void write_frame(double time, const Eigen::VectorXd& of_rows, bool beside);
 
   const Scene& scene_;
@@ -69,12 +71,14 @@ class HeatRecorder {
   std::vector<output::Probe<dim>> probes_;  // of the model's rows
   std::filesystem::path restart_;
   bool several_threads_;
+  FrameTimes frame_times_;
   output::Series series_;
   std::optional<output::Series> contact_series_;  // if there are contacts
   std::optional<output::ProbeTable> table_;
   bool space_error_ = false;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();  // the last save()
-  std::shared_ptr<const thermal::HeatState> unsaved_;                               // of the last frame with a state
+  std::chrono::steady_clock::time_point kept_ = saved_;                             // the last copy of a state
+  std::shared_ptr<const thermal::HeatState> unsaved_;                               // the last of those that are kept
   Frames waiting_;                                                                  // frames that no thread writes yet
   FilesTogether files_;                                                             // that are yet to be flushed
   std::binary_semaphore others_wait_{0};                                            // for the thread that writes frames

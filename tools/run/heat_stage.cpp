@@ -182,6 +182,7 @@ HeatOutcome<dim> heat_stage(RunContext& context, packing::Packing<dim> packing) 
   }
   say_rows(context, outcome);
   const auto begin = [&] {
+    check_interrupt();
     if (context.begun && !is_placed(scene)) return;  // when the blocks fell
     context.aside("begin", [&] {
       begin_results(context);

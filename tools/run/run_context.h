@@ -32,9 +32,10 @@ struct RunContext {
     remarks.push_back(std::move(text));
   }
 
-  // Runs one stage: shows it, measures it, and returns what it made.
+  // Runs one stage: shows it, measures it, and returns what it made. Throws Interrupted before it.
   template <class Work>
   auto stage(const std::string& name, const std::string& text, Work work) {
+    check_interrupt();
     progress.start(name, text);
     StageClock clock(name);
     running = &clock;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -97,15 +98,21 @@ Ending run_stages(RunContext& context, Json& summary) {
   return {"complete", 0, {}};
 }
 
+// A run that ended before it had anything to write.
+bool leaves_earlier_results(const RunContext& context) {
+  return !context.begun && !context.resume && std::filesystem::exists(context.files.summary());
+}
+
 // Throws InputError if the scene is refused before any work.
 Ending run_to_an_end(RunContext& context, Claim& claim, Json& summary) {
   try {
     return context.scene.dimension == 2 ? run_stages<2>(context, summary) : run_stages<3>(context, summary);
   } catch (const Interrupted&) {
-    return {
-        "interrupted",
-        130,
-        {fmt::format("interrupted; `scree resume {}` goes on from the last finished time", context.files.directory.string())}};
+    std::string reason = "interrupted";
+    if (!leaves_earlier_results(context)) {
+      reason += fmt::format("; `scree resume {}` goes on from the last finished time", context.files.directory.string());
+    }
+    return {"interrupted", 130, {std::move(reason)}};
   } catch (const InputError& error) {
     const InputError refusal = located(context.scene, error);
     if (!context.begun) {
@@ -158,6 +165,20 @@ Claim claim_directory(const Scene& scene, const RunFiles& files, Start start, Pr
   }
 }
 
+// Whoever reads the events is told the end even if the summary cannot be written.
+void end_results(RunContext& context, Json& summary, Ending& ending) {
+  try {
+    begin_results(context);
+    if (!context.remarks.empty()) summary["remarks"] = context.remarks;
+    add_stages(summary, context.costs);
+    write_last_files(context, summary, ending);
+  } catch (const RunError& error) {
+    context.progress.end({"failed", 1, context.files.directory.string(), {error.what()}});
+    throw;
+  }
+  say_costs(context.costs, context.progress);
+}
+
 }  // namespace
 
 int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& progress, SpaceErrors space_errors) {
@@ -173,11 +194,12 @@ int run_scene(const Scene& scene, const RunFiles& files, Start start, Progress& 
   for (const std::string& sentence : scene.bare_values) context.remark("suspicious: " + sentence);
   Json summary = opening_summary(context);
   Ending ending = run_to_an_end(context, claim, summary);
-  begin_results(context);
-  if (!context.remarks.empty()) summary["remarks"] = context.remarks;
-  add_stages(summary, context.costs);
-  write_last_files(context, summary, ending);
-  say_costs(context.costs, progress);
+  if (leaves_earlier_results(context)) {
+    claim.undo();
+    ending.reasons.push_back(fmt::format("nothing was begun: {} is what an earlier run left", files.directory.string()));
+  } else {
+    end_results(context, summary, ending);
+  }
   progress.end({ending.status, ending.code, files.directory.string(), ending.reasons});
   for (const std::string& reason : ending.reasons) fmt::print(stderr, "scree: {}\n", reason);
   return ending.code;
