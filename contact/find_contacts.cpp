@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "contact/both_diagonals.h"
-#include "contact/hidden_overlaps.h"
+#include "contact/hidden_contacts.h"
 #include "contact/near_faces.h"
 #include "contact/overlap_search.h"
 #include "contact/semi_edge.h"
@@ -178,8 +178,8 @@ ContactSet<dim> find_contacts(const mesh::BlockMesh<dim>& mesh, const ContactOpt
     } else {
       set.contacts.insert(set.contacts.end(), overlaps.begin(), overlaps.end());
     }
-    drop_hidden_overlaps(surface, set.contacts);
   }
+  drop_hidden_contacts(surface, options, set.contacts);
   if constexpr (dim == 3) see_both_diagonals(mesh, set.contacts);
   return set;
 }

@@ -7,7 +7,7 @@
 #include <boost/container/static_vector.hpp>
 
 #include "contact/both_diagonals.h"
-#include "contact/hidden_overlaps.h"
+#include "contact/hidden_contacts.h"
 #include "contact/near_faces.h"
 #include "contact/near_shells.h"
 #include "contact/overlap.h"
@@ -139,12 +139,16 @@ class WholeFaces {
     const double length = std::min(surface_.lengths[first], surface_.lengths[second]);
     overlap_points(*pair, tolerance_ * length, points);
     std::erase_if(points, [&](const OverlapPoint<dim>& at) {
-      return at.gap < -least_gap * length && !inside_block<dim>(surface_, second, weighted_point<dim>(of_first, at.on_first)) &&
-             !inside_block<dim>(surface_, first, weighted_point<dim>(of_second, at.on_second));
+      return at.gap < -least_gap * length && !inside(second, weighted_point<dim>(of_first, at.on_first)) &&
+             !inside(first, weighted_point<dim>(of_second, at.on_second));
     });
   }
 
  private:
+  [[nodiscard]] bool inside(FaceId face, const Point<dim>& point) const {
+    return inside_block(surface_, surface_.faces[face].block, surface_.faces[face].element, point);
+  }
+
   const Surface<dim>& surface_;
   double tolerance_;
 };
@@ -253,7 +257,7 @@ std::map<std::pair<BodyId, BodyId>, double> overlap_areas(const mesh::BlockMesh<
   const Surface<dim> surface = surface_of(mesh, near_faces(mesh, mesh::boundary_faces(mesh), {options.tolerance, 0}));
   Contacts<dim> overlaps = contacts_of(surface, options.tolerance, WholeFaces<dim>(surface, options.tolerance),
                                        [&](BodyId a, BodyId b) { return options.model_of(a, b) == Model::semi_spring; });
-  drop_hidden_overlaps(surface, overlaps);
+  drop_hidden_contacts(surface, options, overlaps);
   for (const Contact<dim>& contact : overlaps) areas[bodies_of(contact.owner, contact.target)] += contact.area;
   return areas;
 }

@@ -60,7 +60,8 @@ std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const Point
   }
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
   const bool asked = touch.gap < 0 && answer.apart != 0 && !known.inside;
-  if (asked && !inside_block<dim>(surface, pair.target, point)) return std::nullopt;
+  const mesh::Face<dim>& target = surface.faces[pair.target];
+  if (asked && !inside_block(surface, target.block, target.element, point)) return std::nullopt;
   return touch;
 }
 

@@ -62,7 +62,8 @@ void count(const contact::Contact<dim>& contact, JointReport& report) {
 void finish(const Sums& sums, JointReport& report) {
   const auto contacts = static_cast<double>(report.point_face + report.edge_edge + report.overlap);
   report.mean_conductance = sums.conductance / report.area;
-  report.joint_conductance = report.touching_area > 0 ? sums.conductance / report.touching_area : 0;
+  const double touching = report.touching_area > 0 ? report.touching_area : 0.5 * report.area;  // of edges both sides' count
+  report.joint_conductance = sums.conductance / touching;
   report.stiffness_factor = sums.conductance / sums.unit_conductance;
   report.biot = report.joint_conductance * sums.size_over_k / contacts;
 }

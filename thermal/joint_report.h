@@ -27,8 +27,8 @@ struct JointReport {
   double least_conductance = 0;
   double mean_conductance = 0;
   double largest_conductance = 0;
-  // h of the joint as a whole: the sum of all conductances over the touching area [W/m2/K]; of semi-springs about twice the
-  // mean.
+  // h of the joint as a whole: the sum of all conductances over the touching area, where only edges meet half of theirs
+  // [W/m2/K]; of semi-springs about twice the mean.
   double joint_conductance = 0;
   // h L/k with the joint's h and, as L, the root of the owner's volume, mean over the contacts: far below 1 the joints resist,
   // far above 1 the blocks do [-].

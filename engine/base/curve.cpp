@@ -139,7 +139,7 @@ class Formula : public Curve::Form {
   // than that and what the rounding of temperatures makes, the formula is not smooth there.
   static constexpr double smooth_integral = 1e-12;
   static constexpr double smooth_value = 1e-11;
-  // What jumps or bends may do so between Gauss's points, and is looked at from one end to the other [K].
+  // What jumps, bends or peaks may do so between Gauss's points, and is looked at from one end to the other [K].
   static constexpr double look_apart = 0.02;
 
   struct Kept {
@@ -304,9 +304,8 @@ class Formula : public Curve::Form {
     return all;
   }
 
-  // Whether the polynomial gives what a formula that may bend does, at its ends and in between.
+  // Whether the polynomial gives what the formula does, at its ends and in between.
   [[nodiscard]] bool holds_between_points(const Piece& whole, double from, double to) const {
-    if (!expression_.may_bend()) return true;
     const double end = std::nextafter(to, from);  // at `to` the next piece begins
     const int looks = static_cast<int>(std::ceil((to - from) / look_apart));
     for (int i = 0; i <= looks; ++i) {

@@ -28,9 +28,8 @@ class Curve {
   // From a file whose first column is `temperature`. Throws InputError.
   static Curve from_table(const std::filesystem::path& file, const ValueRule& rule);
 
-  // At a temperature [K]; of a formula to 1e-11 of its value, but for a peak narrower than 0.02 K of one that compares,
-  // chooses, rounds or takes the least, the largest or the size. From any thread. Throws InputError that names the temperature
-  // at which a formula breaks the rule.
+  // At a temperature [K]; of a formula to 1e-11 of its value, but for a peak narrower than 0.02 K. From any thread. Throws
+  // InputError that names the temperature at which a formula breaks the rule.
   double operator()(double temperature) const;
 
   // Of its value over temperature [per K], from any thread. Where a formula bends or jumps, and below 0 K, it is not known and

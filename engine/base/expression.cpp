@@ -24,7 +24,7 @@ struct Expression::Parser {
   mu::Parser formula;
   std::vector<double> values;  // of the variables; the formula holds their addresses
   std::vector<std::string> used;
-  bool may_jump = false, may_bend = false;
+  bool may_jump = false;
   std::mutex turn;
 };
 
@@ -97,12 +97,8 @@ void refuse_assignment(const std::string& text) {
 // By muParser's operators and functions; division by zero is no value.
 bool holds_a_jump(const std::string& text) {
   const bool compares = text.find_first_of("<>=?&|") != std::string::npos;  // with != and :, too
-  return compares || text.find("sign") != std::string::npos || text.find("rint") != std::string::npos;
-}
-
-bool holds_a_bend(const std::string& text) {
-  return text.find("abs") != std::string::npos || text.find("min") != std::string::npos ||
-         text.find("max") != std::string::npos;
+  return compares || text.find("sign") != std::string::npos || text.find("rint") != std::string::npos ||
+         text.find("atan2") != std::string::npos;
 }
 
 // What solutions of the heat equation are made of, and muParser lacks.
@@ -125,7 +121,6 @@ Expression::Parser::Parser(const std::string& text, const std::vector<std::strin
     formula.SetExpr(text);
     for (const auto& entry : formula.GetUsedVar()) used.push_back(entry.first);
     may_jump = holds_a_jump(text);
-    may_bend = may_jump || holds_a_bend(text);
     formula.Eval();
   } catch (const mu::ParserError& error) {
     throw explain(error, formula, text, variables);
@@ -154,10 +149,6 @@ double Expression::operator()(std::span<const double> values) const {
 
 bool Expression::may_jump() const {
   return parser_->may_jump;
-}
-
-bool Expression::may_bend() const {
-  return parser_->may_bend;
 }
 
 bool Expression::uses(const std::string& variable) const {

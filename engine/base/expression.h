@@ -37,9 +37,6 @@ class Expression {
   // Whether it compares, chooses or rounds: only then may its value jump.
   [[nodiscard]] bool may_jump() const;
 
-  // Whether it does, or takes sizes, or the least or the largest of several: only then may its slope jump.
-  [[nodiscard]] bool may_bend() const;
-
  private:
   struct Parser;
   std::shared_ptr<Parser> parser_;

@@ -48,12 +48,14 @@ class Owned {
   std::size_t size_ = 0;
 };
 
-std::string last_error() {
+// Without a word where its memory ran out, which is not the mesh's fault.
+GmshFailure last_failure() {
   Owned<char> error;
   int failed = 0;
   find<decltype(gmshLoggerGetLastError)>("gmshLoggerGetLastError")(error.data(), &failed);
   const std::string text = error.text();
-  return failed != 0 || text.empty() ? "no reason given" : text;
+  if (failed != 0 || text.empty()) throw RunError("Gmsh failed without a reason, as where there is too little memory");
+  return {text};
 }
 
 template <class Function, class... Arguments>
@@ -61,10 +63,10 @@ auto called(Function* function, Arguments... arguments) {
   int failed = 0;
   if constexpr (std::is_void_v<decltype(function(arguments..., &failed))>) {
     function(arguments..., &failed);
-    if (failed != 0) throw GmshFailure{last_error()};
+    if (failed != 0) throw last_failure();
   } else {
     const auto result = function(arguments..., &failed);
-    if (failed != 0) throw GmshFailure{last_error()};
+    if (failed != 0) throw last_failure();
     return result;
   }
 }

@@ -27,7 +27,7 @@ struct Column {
 // and the rows of blocks along them are not: else whole rows of lines may lie between rows of blocks.
 struct Columns {
   double size = 0;     // of a free block: cube root of the mean volume [m]
-  double spacing = 0;  // of the lines: a quarter of that, or more if that made more than 1024 lines along a side [m]
+  double spacing = 0;  // of the lines: a quarter of that, up to half if that made more than 1024 lines along a side [m]
   int side = 0;        // lines along each side
   std::vector<Column> lines;
 
@@ -38,7 +38,7 @@ struct Columns {
 };
 
 // `upright` is a placed mesh whose z axis points up, `pieces` its pieces; blocks `left_out` are not there. Without a free block
-// there are no lines.
+// there are no lines, nor where one lies so far from the others that too many were needed.
 Columns cut_by_lines(const mesh::BlockMesh<3>& upright, const PieceSet& pieces, const std::vector<BlockId>& left_out);
 
 }  // namespace scree::packing

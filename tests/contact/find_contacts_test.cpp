@@ -1,6 +1,7 @@
 #include "contact/find_contacts.h"
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,25 @@ TEST(FindContacts, OfTheRingOf960TrianglesAreAllButTheRims) {
   EXPECT_EQ(set.semi_springs, 5760);
   EXPECT_EQ(set.contacts.size(), 5760 - 2 * 60 * 2);
   for (const auto& contact : set.contacts) EXPECT_NEAR(contact.gap, 0, 1e-12);
+}
+
+// A film of two thousandths of the cubes' edge between them: what the semi-springs of a cube find is the film, and a semi-edge
+// must not take the edges behind it instead.
+TEST(FindContacts, DoNotReachThroughAFilmThatLiesBetween) {
+  const auto layer = [](int cells, double low, double thickness) {
+    BlockOf<3> simplices;
+    for (int i = 0; i < cells * cells; ++i) {
+      const Point<3> corner(double(i % cells) / cells, double(i / cells) / cells, low);  // NOLINT(bugprone-integer-division)
+      for (const auto& simplex : box<3>(corner, Point<3>(1.0 / cells, 1.0 / cells, thickness))) simplices.push_back(simplex);
+    }
+    return simplices;
+  };
+  const auto set = find_contacts<3>(mesh_of<3>({layer(3, -0.4, 0.4), layer(2, 0, 0.002), layer(4, 0.002, 0.4)}), {0.05, 0.05});
+  std::map<std::pair<std::size_t, std::size_t>, int> between;
+  for (const auto& contact : set.contacts) ++between[std::minmax(contact.owner.index(), contact.target.index())];
+  EXPECT_GT((between[{0, 1}]), 0);
+  EXPECT_GT((between[{1, 2}]), 0);
+  EXPECT_EQ((between[{0, 2}]), 0);
 }
 
 TEST(FindContacts, OfACubeOfLooseTetrahedraAreAllInnerFacesAndNoSemiEdges) {

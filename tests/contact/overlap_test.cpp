@@ -291,6 +291,22 @@ TEST(Overlap, DoesNotReachThroughAFilmThatLiesBetween) {
   }
 }
 
+// Whatever the model of its own joints: what lies between need not have a contact.
+TEST(Overlap, DoesNotReachThroughAFilmWhoseJointsAreOfAnotherModel) {
+  auto mesh = mesh_of<3>(
+      {box<3>(at(0, 0, 0), at(1, 1, 1)), box<3>(at(0, 0, 1), at(1, 1, 0.002)), box<3>(at(0, 0, 1.002), at(1, 1, 1))});
+  mesh.bodies = Table<BodyId, mesh::Body>(3);
+  for (const BlockId block : mesh.blocks.ids()) mesh.blocks[block].body = BodyId{block.index()};
+  for (const Model of_film : {Model::none, Model::semi_spring}) {
+    ContactOptions options = by_overlap;
+    options.pairs = Table<BodyId, Table<BodyId, Model>>(3, Table<BodyId, Model>(3, of_film));
+    options.pairs[BodyId{0}][BodyId{2}] = options.pairs[BodyId{2}][BodyId{0}] = Model::overlap;
+    for (const auto& contact : find_contacts<3>(mesh, options).contacts) {
+      EXPECT_TRUE(contact.owner == BlockId{1} || contact.target == BlockId{1});
+    }
+  }
+}
+
 // A film that covers a half of the face hides that half.
 TEST(Overlap, OfWhatAFilmLeavesFreeIsFound) {
   const auto mesh = mesh_of<3>(

@@ -102,7 +102,10 @@ class Study {
     const RunFiles files{run_directory(number)};
     fs::create_directories(files.directory);
     // Of an earlier call: a run that is refused leaves it.
-    if (fs::exists(files.summary())) run::forget_run(files);
+    if (fs::exists(files.summary())) {
+      refuse_foreign(files);
+      run::forget_run(files);
+    }
     const RunFiles first{run_directory(0)};
     if (number > 0 && scene_.settle && fs::exists(first.packing())) {
       fs::copy_file(first.packing(), files.packing(), fs::copy_options::overwrite_existing);
@@ -112,7 +115,7 @@ class Study {
     for (const auto& overrides : {arguments_.overrides, overrides_of(scene_, rung)}) {
       for (const std::string& assignment : overrides) words.insert(words.end(), {"--set", assignment});
     }
-    const run::ChildEnd child = wait_for(run::ChildProcess(words, files.directory / "log"));
+    const run::ChildEnd child = wait_for(run::ChildProcess(words, log_of(files)));
     Measured measured;
     measured.rung = rung;
     measured.exit_status = child.exit_status;
@@ -120,6 +123,18 @@ class Study {
     read_summary(files, measured);
     return measured;
   }
+
+  // What each run of this command has printed stands beside its results.
+  static void refuse_foreign(const RunFiles& files) {
+    if (fs::exists(log_of(files))) return;
+    Problem problem;
+    problem.key = "--out";
+    problem.value = files.directory.string();
+    problem.rule = "must not be a run that this command has not made: it would be removed";
+    throw InputError(problem);
+  }
+
+  static fs::path log_of(const RunFiles& files) { return files.directory / "log"; }
 
   [[nodiscard]] fs::path run_directory(std::size_t number) const { return directory_ / fmt::format("run_{:02}", number); }
 

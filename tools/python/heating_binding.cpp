@@ -52,7 +52,8 @@ class Forgotten {
 
 // A pile that was settled here is of its scene alone, as the packing in a run's folder; one from a file is whoever's names it.
 void check_origin(const Scene& scene, const AnyPacking& packing) {
-  if (packing.fall_key.empty() || packing.fall_key == run::fall_key(scene)) return;
+  const bool fell = scene.settle.has_value() && !packing.fall_key.empty();
+  if (!fell || packing.fall_key == run::fall_key(scene)) return;
   Problem problem;
   problem.where.file = scene.file.string();
   problem.key = "packing";

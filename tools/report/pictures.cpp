@@ -8,19 +8,20 @@
 #include "engine/base/check.h"
 #include "engine/base/scratch_folder.h"
 #include "engine/output/render.h"
-#include "engine/packing/packing.h"
+#include "engine/packing/remaining.h"
 #include "tools/report/page.h"
 
 namespace scree::report {
 
 namespace {
 
-// Middle of the free blocks along y, or of all if none is free; nothing in 2-D. Throws InputError for a damaged packing.
+// Middle of the free blocks that are left along y, or of all if none is free; nothing in 2-D. Throws InputError for a damaged
+// packing.
 std::optional<double> middle(const run::RunFiles& files) {
   if (!std::filesystem::exists(files.packing())) return std::nullopt;
   mesh::BlockMesh<3> mesh;
   try {
-    mesh = packing::placed_mesh(packing::read<3>(files.packing()));
+    mesh = packing::remaining(packing::read<3>(files.packing())).mesh;
   } catch (const InputError&) {
     packing::read<2>(files.packing());
     return std::nullopt;  // there is nothing to cut

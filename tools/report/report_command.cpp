@@ -21,7 +21,8 @@ void declare_report(CLI::App& command, ReportArguments& arguments) {
 
 int report_command(const ReportArguments& arguments) {
   const std::filesystem::path directory = std::filesystem::path(arguments.directory + "/").parent_path();
-  const bool study = std::filesystem::exists(directory / "table.csv");
+  const bool study =
+      std::filesystem::exists(directory / "table.csv") && !std::filesystem::exists(run::RunFiles{directory}.summary());
   const Pictures pictures = arguments.without_pictures ? Pictures::none
                             : arguments.animations     ? Pictures::animated
                                                        : Pictures::still;

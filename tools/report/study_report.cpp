@@ -148,6 +148,10 @@ void add_charts(Page& page, const std::vector<Row>& rows) {
     const std::string apart = axes->apart ? fmt::format(", a colour for each {}", names[*axes->apart]) : "";
     page.figure_with(to_svg(chart), fmt::format("{} against {}{}", names[number], names[axes->against], apart));
   }
+  if (axes->figures.size() > most_charts) {
+    page.paragraph(
+        fmt::format("{} more figures are in the table; `scree plot` draws them.", axes->figures.size() - most_charts));
+  }
 }
 
 std::vector<Row> read_rows(const std::filesystem::path& file) {

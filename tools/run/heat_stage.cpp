@@ -20,10 +20,13 @@ namespace scree::run {
 namespace {
 
 std::string one_sided_words(const contact::OneSided& joints) {
+  constexpr double most = 0.3;  // of an element: beyond it semi-springs reach what is no neighbour
+  const double enough = 1.2 * joints.tolerance;
   return fmt::format(
-      "{} semi-springs of {:.4g} m2 reach across gaps over which the finer mesh behind does not: those joints conduct half. "
-      "With a contact.tolerance of some {:.2g} both sides do",
-      joints.contacts, joints.area, 1.2 * joints.tolerance);
+      "{} semi-springs of {:.4g} m2 reach across gaps over which the finer mesh behind does not: those joints conduct half. {}",
+      joints.contacts, joints.area,
+      enough <= most ? fmt::format("With a contact.tolerance of some {:.2g} both sides do", enough)
+                     : "Refine the coarser mesh, or lower contact.tolerance");
 }
 
 template <int dim>

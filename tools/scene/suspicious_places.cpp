@@ -160,7 +160,9 @@ Sentences isolated_blocks(const mesh::BlockMesh<dim>& mesh, const contact::Conta
   const auto& of_block = touched.raw();
   if (scene.places.contains("contact") &&
       std::none_of(of_block.begin(), of_block.end(), [](bool touches) { return touches; })) {
-    return {"no two blocks touch: no heat passes between any of them"};
+    return {std::holds_alternative<thermal::InsulatingJoint>(joint.law)
+                ? "no joint conducts: no heat passes between any two blocks"
+                : "no two blocks touch: no heat passes between any of them"};
   }
   Table<BodyId, std::size_t> alone(mesh.bodies.size());
   Table<BodyId, std::size_t> blocks(mesh.bodies.size());

@@ -38,7 +38,7 @@ std::vector<int> shuffled(int count, mesh::RandomNumbers& random) {
 }
 
 Level level_at(const Factor& factor, double fraction) {
-  if (factor.interval) return factor.interval->at(fraction, factor.where);
+  if (factor.interval) return factor.interval->drawn(fraction, factor.where);
   return factor.levels[static_cast<std::size_t>(fraction * static_cast<double>(factor.levels.size()))];
 }
 

@@ -32,8 +32,13 @@ struct Interval {
   bool whole = false;  // integers only
   std::string unit;    // of SI; empty for a plain number
 
-  // At a fraction of the way, by the kind of spacing.
+  // At a fraction of the way, by the kind of spacing; of integers the nearest.
   [[nodiscard]] Level at(double fraction, const SourceLocation& where) const;
+  // The one that a fraction in [0, 1) draws, each of the integers as often as the others where they are spaced evenly.
+  [[nodiscard]] Level drawn(double fraction, const SourceLocation& where) const;
+
+ private:
+  [[nodiscard]] Level level_of(double value, const SourceLocation& where) const;
 };
 
 // What varies.

@@ -1,0 +1,249 @@
+#include "contact/hidden_contacts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "contact/box_grid.h"
+#include "contact/overlap.h"
+#include "contact/shell.h"
+#include "engine/base/chunks.h"
+
+namespace scree::contact {
+
+namespace {
+
+constexpr double on_face = 1e-9;  // of the contact's length
+
+// Is a point further than that from the box about these corners?
+template <int dim>
+bool beside(const Corners<dim>& corners, const Point<dim>& point, double near) {
+  Aabb<dim> box;
+  for (const Point<dim>& corner : corners) box.extend(corner);
+  return box.squaredExteriorDistance(point) > near * near;
+}
+
+template <int dim>
+bool may_be_hidden(const Contact<dim>& contact) {
+  return contact.kind != Kind::point_face && std::abs(contact.gap) > least_gap * contact.length;
+}
+
+template <int dim>
+bool any_may_be_hidden(const Contacts<dim>& contacts) {
+  std::atomic<bool> any = false;
+  for_chunks(contacts.size(), [&](Chunk chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end && !any.load(std::memory_order_relaxed); ++i) {
+      if (may_be_hidden(contacts[i])) any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any;
+}
+
+// The same point of the edge that a semi-edge runs beside.
+std::array<double, 3> weights_on_edge(std::array<double, 3> weights, double indentation) {
+  for (double& weight : weights) weight = (weight - indentation / 3) / (1 - indentation);
+  return weights;
+}
+
+// From a point of one block to another block.
+template <int dim>
+struct Sight {
+  BlockId own;
+  ElementId element;  // of its own block, at the point
+  Point<dim> from;
+  Point<dim> along;  // unit
+  double near;       // what stands before is nearer than this, negative within the block beyond [m]
+};
+
+// What is asked of a contact. An overlap is hidden from either side, a semi-edge from its edge, too.
+template <int dim>
+struct Asked {
+  std::size_t contact;
+  std::array<Sight<dim>, 2> sights;
+  bool both;
+  double length;  // the contact's [m]
+  std::array<bool, 2> sees_another{};
+
+  [[nodiscard]] bool hidden() const { return both ? sees_another[0] && sees_another[1] : sees_another[0] || sees_another[1]; }
+};
+
+// Whether something stands between the points of contacts; for one thread.
+template <int dim>
+class Between {
+ public:
+  Between(const Surface<dim>& surface, const ContactOptions& options, const Contacts<dim>& contacts,
+          const std::vector<FaceId>& starts, const BoxGrid<dim>& shells)
+      : surface_(surface), options_(options), contacts_(contacts), starts_(starts), shells_(shells) {}
+
+  // Marks those that are hidden among some contacts that follow one another and have the same faces.
+  void mark(Chunk run, std::vector<std::uint8_t>& hidden) {
+    asked_.clear();
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      if (!may_be_hidden(contacts_[i])) continue;
+      if (lies_behind(contacts_[i])) {
+        hidden[i] = 1;
+      } else {
+        asked_.push_back(asked_of(i));
+      }
+    }
+    if (asked_.empty()) return;
+    look(contacts_[run.begin]);
+    for (const Asked<dim>& asked : asked_) {
+      if (asked.hidden()) hidden[asked.contact] = 1;
+    }
+  }
+
+ private:
+  // A semi-edge behind an edge, neither in the other's block.
+  [[nodiscard]] bool lies_behind(const Contact<dim>& contact) const {
+    return contact.kind == Kind::edge_edge && contact.gap < 0 &&
+           !inside_block(surface_, contact.target, contact.target_element, point_of(surface_.mesh, contact.on_owner)) &&
+           !inside_block(surface_, contact.owner, contact.owner_element, point_of(surface_.mesh, contact.on_target));
+  }
+
+  [[nodiscard]] Asked<dim> asked_of(std::size_t i) const {
+    const Contact<dim>& contact = contacts_[i];
+    const Point<dim> on_owner = point_of(surface_.mesh, contact.on_owner);
+    const Point<dim> on_target = point_of(surface_.mesh, contact.on_target);
+    const double flat = least_gap * contact.length;
+    if constexpr (dim == 3) {
+      if (contact.kind == Kind::edge_edge) {
+        const Point<3> along = ((on_target - on_owner) / contact.gap).normalized();
+        Stencil<3> edge = contact.on_owner;
+        edge.weights = weights_on_edge(edge.weights, options_.indentation);
+        const Point<3> on_edge = point_of(surface_.mesh, edge);
+        const auto from = [&](const Point<3>& point) -> Sight<3> {
+          return {contact.owner, contact.owner_element, point, along, along.dot(on_target - point) - flat};
+        };
+        return {i, {from(on_owner), from(on_edge)}, true, contact.length};
+      }
+    }
+    const auto normal = [&](const Stencil<dim>& on) {
+      return Point<dim>(mesh::area_vector<dim>(surface_.mesh, on.nodes).normalized());
+    };
+    const double near = contact.gap - flat;
+    return {i,
+            {Sight<dim>{contact.owner, contact.owner_element, on_owner, normal(contact.on_owner), near},
+             Sight<dim>{contact.target, contact.target_element, on_target, normal(contact.on_target), near}},
+            false,
+            contact.length};
+  }
+
+  // As far as a block may be in another one that it touches [m].
+  [[nodiscard]] double deepest(double length) const { return 2 * options_.tolerance * length; }
+  // To the side of a face what is on it [m].
+  [[nodiscard]] double rounding(double length) const { return std::max(on_face * length, surface_.rounding); }
+
+  // Asks the faces of all blocks around but the contact's.
+  void look(const Contact<dim>& contact) {
+    Aabb<dim> way;
+    for (const Asked<dim>& asked : asked_) {
+      for (const Sight<dim>& sight : asked.sights) {
+        way.extend(Point<dim>(sight.from - deepest(asked.length) * sight.along));
+        way.extend(Point<dim>(sight.from + std::max(0.0, sight.near) * sight.along));
+      }
+    }
+    way.min().array() -= rounding(asked_.front().length);
+    way.max().array() += rounding(asked_.front().length);
+    shells_.find(way, found_);
+    for (const std::uint32_t place : found_) {
+      const std::size_t shell = shells_.order()[place];
+      const BlockId block = surface_.faces[starts_[shell]].block;
+      if (block == contact.owner || block == contact.target) continue;
+      const std::size_t end = shell + 1 < starts_.size() ? starts_[shell + 1].index() : surface_.faces.size();
+      for (std::size_t f = starts_[shell].index(); f < end; ++f) ask(FaceId{f});
+    }
+  }
+
+  // Those who look against the face; all sights of a side have one direction.
+  void ask(FaceId face) {
+    const Point<dim>& normal = surface_.normals[face];
+    const Point<dim>& corner = surface_.mesh.nodes[surface_.faces[face].nodes[0]];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double slope = asked_.front().sights[side].along.dot(normal);
+      if (slope >= 0) continue;
+      for (Asked<dim>& asked : asked_) {
+        const Sight<dim>& sight = asked.sights[side];
+        const double way = (corner - sight.from).dot(normal) / slope;
+        if (way >= sight.near || way < -deepest(asked.length) || asked.sees_another[side]) continue;
+        asked.sees_another[side] = stands_before(face, sight, way, asked.length);
+      }
+    }
+  }
+
+  // Of a face whose plane is so far along the way.
+  [[nodiscard]] bool stands_before(FaceId face, const Sight<dim>& sight, double way, double length) const {
+    const Corners<dim> corners = corners_of(surface_, face);
+    const Point<dim> hit = sight.from + way * sight.along;
+    if (beside<dim>(corners, hit, rounding(length))) return false;  // most are, and that is soon seen
+    const double off = (weighted_point<dim>(corners, closest_weights<dim>(corners, hit)) - hit).norm();
+    if (off > rounding(length)) return false;
+    if (way >= -least_gap * length) return true;
+    // Behind the point: the face must lie in the point's own block, or the point in that of the face.
+    const mesh::Face<dim>& of = surface_.faces[face];
+    return inside_block(surface_, sight.own, sight.element, hit) || inside_block(surface_, of.block, of.element, sight.from);
+  }
+
+  const Surface<dim>& surface_;
+  const ContactOptions& options_;
+  const Contacts<dim>& contacts_;
+  const std::vector<FaceId>& starts_;  // of the shells
+  const BoxGrid<dim>& shells_;
+  std::vector<Asked<dim>> asked_;
+  Places found_;
+};
+
+// The first contact behind one that has not its faces.
+template <int dim>
+std::size_t end_of_run(const Contacts<dim>& contacts, std::size_t first, std::size_t end) {
+  const Contact<dim>& of = contacts[first];
+  std::size_t last = first + 1;
+  if (of.kind != Kind::overlap) return last;
+  while (last < end && contacts[last].kind == Kind::overlap && contacts[last].on_owner.nodes == of.on_owner.nodes &&
+         contacts[last].on_target.nodes == of.on_target.nodes) {
+    ++last;
+  }
+  return last;
+}
+
+template <int dim>
+std::vector<Aabb<dim>> boxes_of(const Surface<dim>& surface, const std::vector<FaceId>& starts) {
+  std::vector<Aabb<dim>> boxes(starts.size());
+  for_chunks(starts.size(), [&](Chunk chunk) {
+    for (std::size_t shell = chunk.begin; shell < chunk.end; ++shell) {
+      for (const NodeId node : surface.mesh.elements[surface.faces[starts[shell]].element]) {
+        boxes[shell].extend(surface.mesh.nodes[node]);
+      }
+    }
+  });
+  return boxes;
+}
+
+}  // namespace
+
+template <int dim>
+void drop_hidden_contacts(const Surface<dim>& surface, const ContactOptions& options, Contacts<dim>& contacts) {
+  if (!any_may_be_hidden(contacts)) return;
+  const std::vector<FaceId> starts = shell_starts(surface);
+  const BoxGrid<dim> shells(boxes_of(surface, starts));
+  std::vector<std::uint8_t> hidden(contacts.size(), 0);
+  for_chunks(contacts.size(), [&](Chunk chunk) {
+    Between<dim> between(surface, options, contacts, starts, shells);
+    for (std::size_t i = chunk.begin; i < chunk.end;) {
+      const std::size_t end = end_of_run(contacts, i, chunk.end);
+      between.mark({chunk.number, i, end}, hidden);
+      i = end;
+    }
+  });
+  if (std::none_of(hidden.begin(), hidden.end(), [](std::uint8_t one) { return one != 0; })) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (hidden[i] == 0) contacts[kept++] = contacts[i];
+  }
+  contacts.resize(kept);
+}
+
+template void drop_hidden_contacts<2>(const Surface<2>&, const ContactOptions&, Contacts<2>&);
+template void drop_hidden_contacts<3>(const Surface<3>&, const ContactOptions&, Contacts<3>&);
+
+}  // namespace scree::contact
