@@ -193,7 +193,7 @@ Columns cut_by_lines(const mesh::BlockMesh<3>& upright, const PieceSet& pieces, 
   }
   if (pile.isEmpty()) return {};
   const double size = mean_size(upright, counts);
-  if (spacing_for(pile, size) > size / 2) return {};
+  if (spacing_for(pile, size) > size / 2) return {size, 0, 0, {}};
   Columns columns = empty_grid(pile, size);
   for (const Part& part : pieces.parts) {
     if (part.fixed || counts[part.block.index()]) enter(part, columns);

@@ -112,6 +112,16 @@ TEST(Curve, TheIntegralOfAFormulaThatJumpsIsExactAndNeverFalls) {
   EXPECT_NEAR(kink.integral(402) - kink.integral(0), 402 + 0.5 * (400.7 * 400.7 + 1.3 * 1.3), 1e-7);
 }
 
+TEST(Curve, ANarrowSmoothPeakCountsWhereverItLies) {
+  for (const double middle : {272.9, 273.15, 273.3173, 273.47}) {
+    for (const double width : {0.009, 0.011, 0.03, 0.1}) {
+      const Curve peak =
+          formula(fmt::format("2000 + 334000/({0}*sqrt(3.141592653589793))*exp(-((T - {1})/{0})^2)", width, middle));
+      EXPECT_NEAR(peak.integral(middle + 2) - peak.integral(middle - 2), 8000 + 334000, 1e-3) << middle << ", " << width;
+    }
+  }
+}
+
 // What a formula that bends suddenly does between Gauss's points, which are up to 0.135 K apart.
 TEST(Curve, ANarrowPeakCountsWhereverItLies) {
   for (const double begin : {0.001, 272.9, 273.0, 273.12, 273.47, 273.97}) {

@@ -73,6 +73,17 @@ TEST(InnerPorosity, OfSolidCubesIsZeroAndOverlapsCountOnce) {
   EXPECT_NEAR(inner_porosity(cut(lattice(6, 6, 1.1, false)))->porosity, 0, 1e-12);
 }
 
+// Lines a quarter of a block apart that reach a stone so far away were too many, and wider ones see no neighbours.
+TEST(InnerPorosity, OfAPileWithAStoneFarAwayIsNotKnown) {
+  auto mesh = lattice(6, 6, 0.9, false);
+  ASSERT_TRUE(inner_porosity(cut(mesh)));
+  for (const NodeId node : mesh.blocks[BlockId{mesh.blocks.size() - 1}].nodes) mesh.nodes[node].x() += 3000;
+  const Columns columns = cut(mesh);
+  EXPECT_NEAR(columns.size, 0.9, 1e-9);
+  EXPECT_TRUE(columns.lines.empty());
+  EXPECT_FALSE(inner_porosity(columns));
+}
+
 TEST(InnerPorosity, OfAFewBlocksIsNotKnown) {
   EXPECT_FALSE(inner_porosity(cut(lattice(1, 1, 1, false))));
   EXPECT_FALSE(inner_porosity(Columns{}));

@@ -145,6 +145,11 @@ TEST(Command, MakesALadderAgainIntoItsFolder) {
     const auto lock = run::FileLock::take(directory / ".lock", run::FileLock::Kind::exclusive, run::FileLock::Heirs::none);
     EXPECT_NE(scree(ladder + " --out " + directory.string()).text.find("is at work there"), std::string::npos);
   }
+  std::filesystem::create_directory(directory / "run_01");
+  std::ofstream(directory / "run_01" / "summary.json") << "{}";
+  EXPECT_EQ(scree(ladder + " --out " + directory.string()).status, 2) << "a run that it has not made";
+  EXPECT_EQ(contents(directory / "run_01" / "summary.json"), "{}");
+  std::filesystem::remove_all(directory / "run_01");
   for (int i = 0; i < 2; ++i) {
     const Outcome outcome = scree(ladder + " --out " + directory.string());
     EXPECT_EQ(outcome.status, 0) << outcome.text;

@@ -1,6 +1,7 @@
 // What a study file may say, and what is said of one that is wrong.
 #include "tests/study/study_text.h"
 
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -105,6 +106,18 @@ report: [heat.time_error]
   other.hypercube->seed = 8;
   EXPECT_NE(points_of(other)[0].levels[0].text, points[0].levels[0].text);
   EXPECT_EQ(points_of(study)[0].levels[0].text, points[0].levels[0].text);
+}
+
+TEST(ReadStudy, DrawsEachIntegerOfARangeAsOftenAsTheOthers) {
+  const Study study = study_of(R"(
+scene: scene.yaml
+vary: [{key: settle.iterations, range: {from: 78, to: 80}}, {key: heat.initial, range: {from: 300 K, to: 400 K}}]
+latin_hypercube: {points: 60}
+report: [heat.time_error]
+)");
+  std::map<std::string, int> drawn;
+  for (const Point& point : points_of(study)) ++drawn[point.levels[0].text];
+  EXPECT_THAT(drawn, testing::ElementsAre(testing::Pair("78", 20), testing::Pair("79", 20), testing::Pair("80", 20)));
 }
 
 TEST(ReadStudy, MakesEqualPointsOfALatinHypercubeOnce) {
