@@ -97,8 +97,8 @@ class Between {
   // A semi-edge behind an edge, neither in the other's block.
   [[nodiscard]] bool lies_behind(const Contact<dim>& contact) const {
     return contact.kind == Kind::edge_edge && contact.gap < 0 &&
-           !inside_block(surface_, contact.target, contact.target_element, point_of(surface_.mesh, contact.on_owner)) &&
-           !inside_block(surface_, contact.owner, contact.owner_element, point_of(surface_.mesh, contact.on_target));
+           !surface_.blocks->hold(contact.target, contact.target_element, point_of(surface_.mesh, contact.on_owner)) &&
+           !surface_.blocks->hold(contact.owner, contact.owner_element, point_of(surface_.mesh, contact.on_target));
   }
 
   [[nodiscard]] Asked<dim> asked_of(std::size_t i) const {
@@ -181,7 +181,7 @@ class Between {
     if (way >= -least_gap * length) return true;
     // Behind the point: the face must lie in the point's own block, or the point in that of the face.
     const mesh::Face<dim>& of = surface_.faces[face];
-    return inside_block(surface_, sight.own, sight.element, hit) || inside_block(surface_, of.block, of.element, sight.from);
+    return surface_.blocks->hold(sight.own, sight.element, hit) || surface_.blocks->hold(of.block, of.element, sight.from);
   }
 
   const Surface<dim>& surface_;

@@ -146,7 +146,7 @@ class WholeFaces {
 
  private:
   [[nodiscard]] bool inside(FaceId face, const Point<dim>& point) const {
-    return inside_block(surface_, surface_.faces[face].block, surface_.faces[face].element, point);
+    return surface_.blocks->hold(surface_.faces[face].block, surface_.faces[face].element, point);
   }
 
   const Surface<dim>& surface_;

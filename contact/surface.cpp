@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/LU>
-
 #include "engine/base/chunks.h"
 #include "engine/base/coordinate_rounding.h"
 #include "engine/base/parts.h"
@@ -159,26 +157,12 @@ double rounding_of(const mesh::BlockMesh<dim>& mesh) {
   return largest;
 }
 
-// None where all blocks are single elements.
-template <int dim>
-Table<BlockId, Aabb<dim>> boxes_of(const mesh::BlockMesh<dim>& mesh) {
-  if (mesh.blocks.size() == mesh.elements.size()) return {};
-  Table<BlockId, Aabb<dim>> boxes(mesh.blocks.size());
-  for_chunks(mesh.blocks.size(), [&](Chunk chunk) {
-    for (std::size_t block = chunk.begin; block < chunk.end; ++block) {
-      Aabb<dim> box;  // not in its place, beside which another thread may write
-      for (const NodeId node : mesh.blocks[BlockId{block}].nodes) box.extend(mesh.nodes[node]);
-      boxes[BlockId{block}] = box;
-    }
-  });
-  return boxes;
-}
-
 }  // namespace
 
 template <int dim>
 Surface<dim> surface_of(const mesh::BlockMesh<dim>& mesh, Table<FaceId, mesh::Face<dim>> faces) {
-  Surface<dim> surface{mesh, rounding_of(mesh), std::move(faces), {}, {}, {}, boxes_of(mesh), {}, {}, {}};
+  Surface<dim> surface{
+      mesh, rounding_of(mesh), std::move(faces), {}, {}, {}, std::make_shared<BlockElements<dim>>(mesh), {}, {}, {}};
   const std::size_t count = surface.faces.size();
   surface.normals = FoundTable<FaceId, Point<dim>>(count);
   surface.areas = FoundTable<FaceId, double>(count);
@@ -247,28 +231,11 @@ double rise_at_rim(const Surface<dim>& surface, const PlacedFace& at, const std:
   return node_normal(surface, own_face(0).index(), vertex).dot(offset);
 }
 
-template <int dim>
-bool inside_block(const Surface<dim>& surface, BlockId block, ElementId first, const Point<dim>& point) {
-  const mesh::BlockMesh<dim>& mesh = surface.mesh;
-  const auto inside = [&](ElementId element) {
-    const auto& nodes = mesh.elements[element];
-    Eigen::Matrix<double, dim, dim> edges;
-    for (int i = 0; i < dim; ++i) edges.col(i) = mesh.nodes[nodes[i + 1]] - mesh.nodes[nodes[0]];
-    const Point<dim> weights = edges.inverse() * (point - mesh.nodes[nodes[0]]);
-    return weights.minCoeff() >= 0 && weights.sum() <= 1;
-  };
-  if (inside(first)) return true;
-  if (is_whole(mesh, block) || !surface.boxes[block].contains(point)) return false;
-  const auto elements = mesh.blocks[block].elements;
-  return std::any_of(elements.begin(), elements.end(), inside);
-}
-
-#define SCREE_INSTANTIATE(dim)                                                                                                 \
-  template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                          \
-  template void add_rims<dim>(Surface<dim>&);                                                                                  \
-  template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&);     \
-  template double rise_at_rim<dim>(const Surface<dim>&, const PlacedFace&, const std::array<double, dim>&, const Point<dim>&); \
-  template bool inside_block<dim>(const Surface<dim>&, BlockId, ElementId, const Point<dim>&);
+#define SCREE_INSTANTIATE(dim)                                                                                             \
+  template Surface<dim> surface_of<dim>(const mesh::BlockMesh<dim>&, Table<FaceId, mesh::Face<dim>>);                      \
+  template void add_rims<dim>(Surface<dim>&);                                                                              \
+  template std::vector<std::size_t> block_starts<dim>(const mesh::BlockMesh<dim>&, const Table<FaceId, mesh::Face<dim>>&); \
+  template double rise_at_rim<dim>(const Surface<dim>&, const PlacedFace&, const std::array<double, dim>&, const Point<dim>&);
 SCREE_INSTANTIATE(2)
 SCREE_INSTANTIATE(3)
 #undef SCREE_INSTANTIATE

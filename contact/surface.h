@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "contact/block_elements.h"
 #include "contact/face_point.h"
 #include "engine/base/written_later.h"
 #include "engine/mesh/block_mesh.h"
@@ -30,7 +32,7 @@ struct Surface {
   FoundTable<FaceId, Point<dim>> normals;  // unit, outwards
   FoundTable<FaceId, double> areas;        // [m2] (2-D: length times unit thickness)
   FoundTable<FaceId, double> lengths;      // characteristic length of the face's element, eq. (11) [m]
-  Table<BlockId, Aabb<dim>> boxes;         // of the blocks, if any has several elements [m]
+  std::shared_ptr<const BlockElements<dim>> blocks;
   // The rims, if they have been added: what is asked where a point is closest to a node or an edge.
   // Of the blocks of several elements, the mean of the faces around, weighted by their angle there; any length. It is asked too
   // rarely for the others.
@@ -97,9 +99,5 @@ struct PlacedFace {
 template <int dim>
 double rise_at_rim(const Surface<dim>& surface, const PlacedFace& at, const std::array<double, dim>& weights,
                    const Point<dim>& offset);
-
-// Is the point in the block? Asks one of its elements first: the one behind a face is nearly always the one.
-template <int dim>
-bool inside_block(const Surface<dim>& surface, BlockId block, ElementId first, const Point<dim>& point);
 
 }  // namespace scree::contact

@@ -61,7 +61,7 @@ std::optional<PointTouch<dim>> touch_of(const Surface<dim>& surface, const Point
   // Behind this face need not be inside: it may be beyond the far side of a thin block.
   const bool asked = touch.gap < 0 && answer.apart != 0 && !known.inside;
   const mesh::Face<dim>& target = surface.faces[pair.target];
-  if (asked && !inside_block(surface, target.block, target.element, point)) return std::nullopt;
+  if (asked && !surface.blocks->hold(target.block, target.element, point)) return std::nullopt;
   return touch;
 }
 
