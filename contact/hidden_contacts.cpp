@@ -87,7 +87,12 @@ class Between {
       }
     }
     if (asked_.empty()) return;
-    look(contacts_[run.begin]);
+    if (asked_.front().both) {  // a semi-edge, alone: most see nothing
+      look(contacts_[run.begin], 0, 1);
+      if (asked_.front().sees_another[0]) look(contacts_[run.begin], 1, 2);
+    } else {
+      look(contacts_[run.begin], 0, 2);
+    }
     for (const Asked<dim>& asked : asked_) {
       if (asked.hidden()) hidden[asked.contact] = 1;
     }
@@ -134,11 +139,12 @@ class Between {
   // To the side of a face what is on it [m].
   [[nodiscard]] double rounding(double length) const { return std::max(on_face * length, surface_.rounding); }
 
-  // Asks the faces of all blocks around but the contact's.
-  void look(const Contact<dim>& contact) {
+  // Asks the faces of all blocks around but the contact's, from one side or both.
+  void look(const Contact<dim>& contact, std::size_t first_side, std::size_t end_side) {
     Aabb<dim> way;
     for (const Asked<dim>& asked : asked_) {
-      for (const Sight<dim>& sight : asked.sights) {
+      for (std::size_t side = first_side; side < end_side; ++side) {
+        const Sight<dim>& sight = asked.sights[side];
         way.extend(Point<dim>(sight.from - deepest(asked.length) * sight.along));
         way.extend(Point<dim>(sight.from + std::max(0.0, sight.near) * sight.along));
       }
@@ -151,15 +157,15 @@ class Between {
       const BlockId block = surface_.faces[starts_[shell]].block;
       if (block == contact.owner || block == contact.target) continue;
       const std::size_t end = shell + 1 < starts_.size() ? starts_[shell + 1].index() : surface_.faces.size();
-      for (std::size_t f = starts_[shell].index(); f < end; ++f) ask(FaceId{f});
+      for (std::size_t f = starts_[shell].index(); f < end; ++f) ask(FaceId{f}, first_side, end_side);
     }
   }
 
   // Those who look against the face; all sights of a side have one direction.
-  void ask(FaceId face) {
+  void ask(FaceId face, std::size_t first_side, std::size_t end_side) {
     const Point<dim>& normal = surface_.normals[face];
     const Point<dim>& corner = surface_.mesh.nodes[surface_.faces[face].nodes[0]];
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t side = first_side; side < end_side; ++side) {
       const double slope = asked_.front().sights[side].along.dot(normal);
       if (slope >= 0) continue;
       for (Asked<dim>& asked : asked_) {
