@@ -40,10 +40,7 @@ const BoxGrid<dim>& BlockElements<dim>::elements_of(BlockId block) const {
   OfBlock& of = blocks_[block.index()];
   std::call_once(of.sorted, [&] {
     std::vector<Aabb<dim>> boxes;
-    for (const ElementId element : mesh_.blocks[block].elements) {
-      Aabb<dim>& box = boxes.emplace_back();
-      for (const NodeId node : mesh_.elements[element]) box.extend(mesh_.nodes[node]);
-    }
+    for (const ElementId element : mesh_.blocks[block].elements) boxes.push_back(element_box(mesh_, element));
     of.elements = std::make_unique<BoxGrid<dim>>(boxes);
   });
   return *of.elements;

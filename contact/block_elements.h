@@ -11,6 +11,13 @@
 namespace scree::contact {
 
 template <int dim>
+Aabb<dim> element_box(const mesh::BlockMesh<dim>& mesh, ElementId element) {
+  Aabb<dim> box;
+  for (const NodeId node : mesh.elements[element]) box.extend(mesh.nodes[node]);
+  return box;
+}
+
+template <int dim>
 class BlockElements {
  public:
   explicit BlockElements(const mesh::BlockMesh<dim>& mesh);  // of the caller, who keeps it

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact/box_grid.h"
-#include "contact/overlap.h"
+#include "contact/semi_edge.h"
 #include "contact/shell.h"
 #include "engine/base/chunks.h"
 
@@ -13,7 +13,8 @@ namespace scree::contact {
 
 namespace {
 
-constexpr double on_face = 1e-9;  // of the contact's length
+constexpr double least_gap = 1e-4;  // of the contact's length
+constexpr double on_face = 1e-9;    // likewise
 
 // Is a point further than that from the box about these corners?
 template <int dim>
@@ -37,12 +38,6 @@ bool any_may_be_hidden(const Contacts<dim>& contacts) {
     }
   });
   return any;
-}
-
-// The same point of the edge that a semi-edge runs beside.
-std::array<double, 3> weights_on_edge(std::array<double, 3> weights, double indentation) {
-  for (double& weight : weights) weight = (weight - indentation / 3) / (1 - indentation);
-  return weights;
 }
 
 // From a point of one block to another block.
@@ -99,9 +94,10 @@ class Between {
   }
 
  private:
-  // A semi-edge behind an edge, neither in the other's block.
+  // Two points behind each other, neither in the other's block: those of slanted faces on both sides of a joint, or of the far
+  // side of a foil.
   [[nodiscard]] bool lies_behind(const Contact<dim>& contact) const {
-    return contact.kind == Kind::edge_edge && contact.gap < 0 &&
+    return contact.gap < 0 &&
            !surface_.blocks->hold(contact.target, contact.target_element, point_of(surface_.mesh, contact.on_owner)) &&
            !surface_.blocks->hold(contact.owner, contact.owner_element, point_of(surface_.mesh, contact.on_target));
   }
@@ -217,9 +213,7 @@ std::vector<Aabb<dim>> boxes_of(const Surface<dim>& surface, const std::vector<F
   std::vector<Aabb<dim>> boxes(starts.size());
   for_chunks(starts.size(), [&](Chunk chunk) {
     for (std::size_t shell = chunk.begin; shell < chunk.end; ++shell) {
-      for (const NodeId node : surface.mesh.elements[surface.faces[starts[shell]].element]) {
-        boxes[shell].extend(surface.mesh.nodes[node]);
-      }
+      boxes[shell] = element_box(surface.mesh, surface.faces[starts[shell]].element);
     }
   });
   return boxes;

@@ -13,9 +13,9 @@ namespace scree::contact {
 
 // Takes those overlaps out whose point, seen from either of the two faces along its normal, lies behind a face of a third
 // block: across a gap, or deeper within the other than it. Likewise semi-edges, along the way from one point to the other, if
-// that is so from the edge they run beside, too; and those that lie behind an edge of a block without being in it. Whatever the
-// models of the third block's joints. The surface is that in which the contacts were found. Gaps of less than a ten-thousandth
-// of the contact's length, either way, hide nothing, and cost nothing.
+// that is so from the edge they run beside, too. And of either those whose points lie behind each other without one of them
+// being in the other's block. Whatever the models of the third block's joints. The surface is that in which the contacts were
+// found. Gaps of less than a ten-thousandth of the contact's length, either way, hide nothing, and cost nothing.
 template <int dim>
 void drop_hidden_contacts(const Surface<dim>& surface, const ContactOptions& options, Contacts<dim>& contacts);
 

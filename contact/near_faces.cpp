@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "contact/block_elements.h"
 #include "contact/box_grid.h"
 #include "engine/base/chunks.h"
 #include "engine/base/collected.h"
@@ -14,8 +15,7 @@ namespace {
 // Holds whatever the element's faces may touch, and so their box in the coarse search.
 template <int dim>
 Aabb<dim> reached_by(const mesh::BlockMesh<dim>& mesh, ElementId element, const ShellOptions& options) {
-  Aabb<dim> box;
-  for (const NodeId node : mesh.elements[element]) box.extend(mesh.nodes[node]);
+  Aabb<dim> box = element_box(mesh, element);
   // No edge is longer than the diagonal.
   const double margin = 1.001 * (widest_shift * options.indentation + options.tolerance) * box.diagonal().norm();
   box.min().array() -= margin;

@@ -16,9 +16,6 @@ namespace scree::contact {
 // other through the tip of a block between them.
 inline constexpr double least_opposed = 0.985;  // cosine of 10 degrees
 
-// Gaps of less than this share of a length, either way, are none: nothing stands between such faces or before them.
-inline constexpr double least_gap = 1e-4;
-
 template <int dim>
 struct FacePair {
   Corners<dim> first;

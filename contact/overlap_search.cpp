@@ -119,8 +119,7 @@ Contact<dim> as_contact(const Surface<dim>& surface, FaceId first, FaceId second
   return contact;
 }
 
-// The points of the overlap of two faces. Where each lies behind the other, one of the two points must be in the other's block:
-// else the faces only look past each other, as two that meet in an edge and lie in one plane but for the depth of the gap.
+// The points of the overlap of two faces.
 template <int dim>
 class WholeFaces {
  public:
@@ -135,20 +134,10 @@ class WholeFaces {
             std::vector<OverlapPoint<dim>>& points) const {
     points.clear();
     const auto pair = opposed_faces<dim>(of_first, surface_.normals[first], of_second, surface_.normals[second]);
-    if (!pair) return;
-    const double length = std::min(surface_.lengths[first], surface_.lengths[second]);
-    overlap_points(*pair, tolerance_ * length, points);
-    std::erase_if(points, [&](const OverlapPoint<dim>& at) {
-      return at.gap < -least_gap * length && !inside(second, weighted_point<dim>(of_first, at.on_first)) &&
-             !inside(first, weighted_point<dim>(of_second, at.on_second));
-    });
+    if (pair) overlap_points(*pair, tolerance_ * std::min(surface_.lengths[first], surface_.lengths[second]), points);
   }
 
  private:
-  [[nodiscard]] bool inside(FaceId face, const Point<dim>& point) const {
-    return surface_.blocks->hold(surface_.faces[face].block, surface_.faces[face].element, point);
-  }
-
   const Surface<dim>& surface_;
   double tolerance_;
 };

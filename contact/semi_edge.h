@@ -15,6 +15,12 @@ inline std::array<double, 3> semi_edge_weights(int side, double along, double in
   return weights;
 }
 
+// The same point of the edge that a semi-edge runs beside.
+inline std::array<double, 3> weights_on_edge(std::array<double, 3> weights, double indentation) {
+  for (double& weight : weights) weight = (weight - indentation / 3) / (1 - indentation);
+  return weights;
+}
+
 // A_SE = A_SS_i + A_SS_j, eq. (10) [m2].
 inline double semi_edge_area(const Surface<3>& surface, FaceId face) {
   return 2 * semi_spring_area(surface, face);

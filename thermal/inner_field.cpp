@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 
 #include "engine/mesh/shell.h"
@@ -38,6 +37,7 @@ std::vector<Side<dim>> sides_of(const Table<FaceId, mesh::Face<dim>>& faces) {
 
 }  // namespace
 
+// Unlike is_convex() of a shell in 2-D, too, and without the maps that a shell is made with: every lumped block is asked.
 template <int dim>
 bool is_dented(const mesh::BlockMesh<dim>& mesh, BlockId block) {
   if (mesh.blocks[block].elements.size() == 1) return false;

@@ -72,19 +72,13 @@ Aabb<2> reach_of(const Part& part) {
   return reach;
 }
 
-double extent_of(const Aabb<2>& pile, double size) {
-  return pile.sizes().maxCoeff() + 4 * size;
-}
-
-double spacing_for(const Aabb<2>& pile, double size) {
-  return std::max(size / lines_per_block, extent_of(pile, size) / most_lines);
-}
-
+// Without lines where so few are too wide for blocks.
 Columns empty_grid(const Aabb<2>& pile, double size) {
   Columns columns;
   columns.size = size;
-  const double extent = extent_of(pile, size);
-  columns.spacing = spacing_for(pile, size);
+  const double extent = pile.sizes().maxCoeff() + 4 * size;
+  columns.spacing = std::max(size / lines_per_block, extent / most_lines);
+  if (columns.spacing > size / 2) return columns;
   columns.side = static_cast<int>(std::ceil(extent / columns.spacing));
   const Vector2d low = pile.center() - Vector2d::Constant(columns.spacing * (columns.side - 1) / 2);
   for (int j = 0; j < columns.side; ++j) {
@@ -192,9 +186,8 @@ Columns cut_by_lines(const mesh::BlockMesh<3>& upright, const PieceSet& pieces, 
     lowest = std::min(lowest, part.box.min().z());
   }
   if (pile.isEmpty()) return {};
-  const double size = mean_size(upright, counts);
-  if (spacing_for(pile, size) > size / 2) return {size, 0, 0, {}};
-  Columns columns = empty_grid(pile, size);
+  Columns columns = empty_grid(pile, mean_size(upright, counts));
+  if (columns.lines.empty()) return columns;
   for (const Part& part : pieces.parts) {
     if (part.fixed || counts[part.block.index()]) enter(part, columns);
   }
