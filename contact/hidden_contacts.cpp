@@ -4,9 +4,8 @@
 #include <atomic>
 #include <cmath>
 
-#include "contact/box_grid.h"
+#include "contact/near_shells.h"
 #include "contact/semi_edge.h"
-#include "contact/shell.h"
 #include "engine/base/chunks.h"
 
 namespace scree::contact {
@@ -67,8 +66,8 @@ template <int dim>
 class Between {
  public:
   Between(const Surface<dim>& surface, const ContactOptions& options, const Contacts<dim>& contacts,
-          const std::vector<FaceId>& starts, const BoxGrid<dim>& shells)
-      : surface_(surface), options_(options), contacts_(contacts), starts_(starts), shells_(shells) {}
+          const ShellTable<dim>& table)
+      : surface_(surface), options_(options), contacts_(contacts), table_(table) {}
 
   // Marks those that are hidden among some contacts that follow one another and have the same faces.
   void mark(Chunk run, std::vector<std::uint8_t>& hidden) {
@@ -147,13 +146,13 @@ class Between {
     }
     way.min().array() -= rounding(asked_.front().length);
     way.max().array() += rounding(asked_.front().length);
-    shells_.find(way, found_);
+    table_.grid.find(way, found_);
     for (const std::uint32_t place : found_) {
-      const std::size_t shell = shells_.order()[place];
-      const BlockId block = surface_.faces[starts_[shell]].block;
-      if (block == contact.owner || block == contact.target) continue;
-      const std::size_t end = shell + 1 < starts_.size() ? starts_[shell + 1].index() : surface_.faces.size();
-      for (std::size_t f = starts_[shell].index(); f < end; ++f) ask(FaceId{f}, first_side, end_side);
+      const Shell<dim>& shell = table_.shells[place];
+      if (shell.block == contact.owner || shell.block == contact.target) continue;
+      for (int face = 0; face <= dim; ++face) {
+        if ((shell.faces >> face & 1u) != 0) ask(shell.face(face), first_side, end_side);
+      }
     }
   }
 
@@ -189,8 +188,7 @@ class Between {
   const Surface<dim>& surface_;
   const ContactOptions& options_;
   const Contacts<dim>& contacts_;
-  const std::vector<FaceId>& starts_;  // of the shells
-  const BoxGrid<dim>& shells_;
+  const ShellTable<dim>& table_;
   std::vector<Asked<dim>> asked_;
   Places found_;
 };
@@ -208,27 +206,15 @@ std::size_t end_of_run(const Contacts<dim>& contacts, std::size_t first, std::si
   return last;
 }
 
-template <int dim>
-std::vector<Aabb<dim>> boxes_of(const Surface<dim>& surface, const std::vector<FaceId>& starts) {
-  std::vector<Aabb<dim>> boxes(starts.size());
-  for_chunks(starts.size(), [&](Chunk chunk) {
-    for (std::size_t shell = chunk.begin; shell < chunk.end; ++shell) {
-      boxes[shell] = element_box(surface.mesh, surface.faces[starts[shell]].element);
-    }
-  });
-  return boxes;
-}
-
 }  // namespace
 
 template <int dim>
 void drop_hidden_contacts(const Surface<dim>& surface, const ContactOptions& options, Contacts<dim>& contacts) {
   if (!any_may_be_hidden(contacts)) return;
-  const std::vector<FaceId> starts = shell_starts(surface);
-  const BoxGrid<dim> shells(boxes_of(surface, starts));
+  const ShellTable<dim> table = make_shells(surface, {});
   std::vector<std::uint8_t> hidden(contacts.size(), 0);
   for_chunks(contacts.size(), [&](Chunk chunk) {
-    Between<dim> between(surface, options, contacts, starts, shells);
+    Between<dim> between(surface, options, contacts, table);
     for (std::size_t i = chunk.begin; i < chunk.end;) {
       const std::size_t end = end_of_run(contacts, i, chunk.end);
       between.mark({chunk.number, i, end}, hidden);
